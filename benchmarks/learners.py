@@ -8,8 +8,9 @@ templates harder than the bank says. How fast they learn is assumed, not measure
 scale with it, ratios and coverage hardly do.
 
 Prints the gain in points of 10 by the next morning for each policy, the score's range after 10
-answers beside what one sitting really brings, and what the project holds itself to; exit code 1 if
-a line is missed. ``--learners N`` (default 48 of each of four populations and both makes).
+answers beside what one sitting really brings, each mean with its standard error, and what the
+project holds itself to; exit code 1 if a line is missed. ``--learners N`` (default 48 of each of
+four populations and both makes).
 """
 
 from __future__ import annotations
@@ -356,13 +357,14 @@ def answer_some(learner: SimulatedLearner, count: int) -> tuple[list[Attempt], f
 missed: list[str] = []
 
 
-def hold(name: str, value: float, least: float, most: float = math.inf) -> None:
-    """Print a figure beside what is promised of it."""
+def hold(name: str, values: np.ndarray, least: float, most: float = math.inf) -> None:
+    """Print a mean with its standard error beside what is promised of it."""
+    value, error = float(values.mean()), float(values.std() / math.sqrt(len(values)))
     good = least <= value <= most
     if not good:
         missed.append(name)
     bound = f">= {least}" if most == math.inf else f"{least} to {most}"
-    print(f"{name:58} {value:6.2f}   {bound}{'' if good else '   MISSED'}")
+    print(f"{name:58} {value:6.2f} ± {error:4.2f}   {bound}{'' if good else '   MISSED'}")
 
 
 def main() -> int:
@@ -390,7 +392,7 @@ def main() -> int:
                                  ("trial round", 0, -0.15), ("trial round", 1, 0.05)):  # fmt: skip
         what = ("trial, 60 min", "sister, 60 min", "trial, 120 min")[column]
         difference = gains["plan"][:, column] - gains[other][:, column]
-        hold(f"plan over {other} ({what})", float(difference.mean()), least)
+        hold(f"plan over {other} ({what})", difference, least)
     inside, errors = [], []
     for make, population, number in who:
         learner = _make_learner(make, population, 1000 + number)
@@ -403,8 +405,8 @@ def main() -> int:
         assert estimate is not None
         assert estimate.expected is not None
         errors.append(abs(estimate.expected - learner.true_score(day)))
-    hold("of 100 sittings within the range, after 10 answers", 100 * float(np.mean(inside)), 75, 88)
-    hold("mean error of the expected score, after 10 answers", float(np.mean(errors)), 0.0, 1.1)
+    hold("of 100 sittings within the range, after 10 answers", 100 * np.array(inside), 75, 88)
+    hold("mean error of the expected score, after 10 answers", np.array(errors), 0.0, 1.1)
     return bool(missed)
 
 

@@ -119,3 +119,10 @@ def test_notebooks_show_question_figure_and_verdict_as_html(asked):
 def test_wrong_arguments_of_marking_are_named(asked, change, message):
     with pytest.raises((ValueError, TypeError), match=message):
         quizgen.grade_answer(asked[1].specs[0], **{"typed": "1", **change})
+
+
+def test_the_changelog_begins_with_this_version_on_one_page():
+    text = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    heading, body = text.partition("\n## ")[2].split("\n", 1)
+    assert heading == quizgen.__version__
+    assert len(body.partition("\n## ")[0].split()) <= 1500

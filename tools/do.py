@@ -45,6 +45,7 @@ COMMANDS: dict[str, tuple[list[str], ...]] = {
             "site",
         ],
     ),
+    "mutants": ([sys.executable, "tools/mutate.py"],),
     "scenes": ([sys.executable, "tools/scenes.py"],),
 }
 """What to type, and what it runs."""

@@ -176,7 +176,7 @@ def _check_version(requires: str) -> None:
     try:
         fits = SpecifierSet(requires).contains(here, prereleases=True)
     except ValueError as error:  # no specifier, or a number of thousands of digits
-        what = f'requires: {requires!r} is not like ">=0.1"'
+        what = f'requires: {requires!r} is not like ">=1.0"'
         raise BankError(what, rule="QG124", place=("requires",)) from error
     if not fits:
         what = f"requires: quizgen {requires}, and this is {here}"

@@ -118,7 +118,8 @@ class Visibility:
         if self.speckles:
             return f"{does}spreads grey levels by {self.spread:.2g}"
         if self.share:
-            share = f"{100.0 * self.share:.2g} % of the pixels"
+            percent = 100.0 * self.share
+            share = f"{percent:.{2 if percent < 99.5 else 3}g} % of the pixels"
             return f"{does}changes {share} by {self.mean:.0f} grey levels"
         return f"{does}changes no pixel by more than {self.levels:.2g} grey levels"
 

@@ -10,6 +10,7 @@ from quizgen.classes.class_folder import ClassFolder
 from quizgen.classes.exam_details import FILE as EXAM
 from quizgen.classes.exam_details import ExamDetails, read_exam_details
 from quizgen.classes.room_lists import FOLDER, PACKAGE, number_seats
+from quizgen.classes.safe_exam_browser import write_settings_file
 from quizgen.classes.seats import entry_code
 from quizgen.core.files import PRIVATE, write_all
 from quizgen.locale import load_words
@@ -24,8 +25,10 @@ FILE = "admission.pdf"
 ON_A_PAGE = 8
 
 
-def write_admission_cards(folder: ClassFolder, address: str, lang: str) -> Path:
-    """Write the cards of all students, in the order of their seats; return the path.
+def write_admission_files(folder: ClassFolder, address: str, lang: str) -> list[Path]:
+    """Write the cards of all students, in the order of their seats; return the paths.
+
+    If the exam is sat in Safe Exam Browser, its settings file is written, too.
 
     Parameters
     ----------
@@ -57,7 +60,10 @@ def write_admission_cards(folder: ClassFolder, address: str, lang: str) -> Path:
         f"once: {_typeset_text(words['once'])})\n"
     )
     sources = document_files("admission.typ", head + body, PACKAGE) | pictures
-    (written,) = write_all(folder.path / FOLDER, {FILE: compile_pdf(sources)}, PRIVATE)
+    written = write_all(folder.path / FOLDER, {FILE: compile_pdf(sources)}, PRIVATE)
+    if exam.browser.safe_exam_browser:
+        password = exam.browser.quit_password
+        written.append(write_settings_file(folder.path / FOLDER, address, password))
     return written
 
 

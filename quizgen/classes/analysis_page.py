@@ -37,7 +37,7 @@ from quizgen.render.fonts import bangla_faces
 
 FILE, TABLE = "analysis.html", "items.csv"
 ITEM_COLUMNS = ("number", "item", "points", "students", "difficulty", "discrimination", "blank",
-                "undecided", "mistakes", "never chosen")  # fmt: skip
+                "undecided", "minutes", "mistakes", "never chosen")  # fmt: skip
 SURE = 0.05
 """Corrected probability below which a difference is shown as one."""
 MOST_MISTAKES, MOST_PLOTS = 3, 6
@@ -100,6 +100,7 @@ def _format_items(found: ClassAnalysis) -> bytes:
                 *("" if value is None else f"{value:.4g}" for value in figures),
                 item.blank,
                 item.undecided,
+                "" if item.minutes is None else f"{item.minutes:.4g}",
                 *map(escape_csv_formula, (mistakes, "; ".join(item.never))),
             ]
         )

@@ -54,6 +54,8 @@ class ClassSettings(msgspec.Struct, frozen=True):
         For each question, the templates that it may be made from.
     without : tuple of str
         Templates that no question may be made from: those of earlier classes.
+    scan : bool
+        Whether papers have marks and codes for a scanner.
     """
 
     name: str
@@ -64,6 +66,7 @@ class ClassSettings(msgspec.Struct, frozen=True):
     digest: str
     templates: tuple[tuple[str, ...], ...]
     without: tuple[str, ...] = ()
+    scan: bool = False
 
 
 class PrintedHead(msgspec.Struct, frozen=True):

@@ -41,6 +41,10 @@ class BrowserExam(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         an offset they are in the time of the machine. Without ``begins`` a person opens the exam.
     minutes : int, optional
         Of each from the own beginning; without it, those of the paper.
+    safe_exam_browser : bool
+        Whether a settings file of Safe Exam Browser is made, with which alone students come in.
+    quit_password : str
+        Which ends Safe Exam Browser before the exam is handed in.
     config_keys, exam_keys : sequence of str
         Of Safe Exam Browser, in hexadecimal digits: if there are any, no other browser is let in.
     """
@@ -48,6 +52,8 @@ class BrowserExam(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     begins: dt.datetime | None = None
     ends: dt.datetime | None = None
     minutes: int | None = None
+    safe_exam_browser: bool = False
+    quit_password: str = ""
     config_keys: list[str] = []
     exam_keys: list[str] = []
 
@@ -63,6 +69,8 @@ class BrowserExam(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
             raise ClassError("browser: ends before it begins")
         if self.minutes is not None and not 1 <= self.minutes <= MOST_MINUTES:
             raise ClassError(f"browser.minutes: {self.minutes} (1 to {MOST_MINUTES})")
+        if self.quit_password and not self.safe_exam_browser:
+            raise ClassError("browser.quit_password: is for safe_exam_browser = true")
         for name in ("config_keys", "exam_keys"):
             for key in getattr(self, name):
                 if not _KEY.fullmatch(key.lower()):

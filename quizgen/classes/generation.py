@@ -66,7 +66,8 @@ from quizgen.paper.selection import (
 )
 from quizgen.paper.variants import draw_variants, shared_content
 from quizgen.render import KINDS, render_paper
-from quizgen.render.answer_sheet import make_answer_sheet
+from quizgen.render.answer_sheet import PAPER_VERSION, VERSION, SheetPlaces, make_answer_sheet
+from quizgen.render.scanned_paper import render_scanned_paper
 from quizgen.render.typst_document import evict_cache
 
 CHUNK = 8
@@ -203,8 +204,7 @@ def replace_template(
     ClassError
         If there is no such question, or nothing else that may stand there.
     """
-    if not 1 <= number <= len(settings.templates):
-        raise ClassError(f"no question {number} (there are {len(settings.templates)})")
+    _find_asked_template(settings, number)
     chosen = [family[0] for family in settings.templates]
     without = settings.without
     if template and template not in bank.template_paths:
@@ -253,9 +253,7 @@ def replace_by_comparable(
     ClassError
         If nothing is known of the question, or of nothing that may stand there.
     """
-    if not 1 <= number <= len(settings.templates):
-        raise ClassError(f"no question {number} (there are {len(settings.templates)})")
-    now = settings.templates[number - 1][0]
+    now = _find_asked_template(settings, number)
     if now not in difficulties:
         raise ClassError(f"no earlier class was asked {now}, of question {number}")
     others = (difficulties.keys() - {now}) & bank.template_paths.keys()
@@ -263,6 +261,13 @@ def replace_by_comparable(
         with suppress(ClassError):
             return replace_template(settings, bank, blueprint, number, other)
     raise ClassError(f"nothing that earlier classes were asked can stand for question {number}")
+
+
+def _find_asked_template(settings: ClassSettings, number: int) -> str:
+    """Return the template of a question, from 1; ``ClassError`` if there is no such question."""
+    if not 1 <= number <= len(settings.templates):
+        raise ClassError(f"no question {number} (there are {len(settings.templates)})")
+    return settings.templates[number - 1][0]
 
 
 def make_preview(settings: ClassSettings, blueprint: Blueprint, exam: ExamDetails) -> Paper:
@@ -522,7 +527,7 @@ def _make_student_files(
     drawn, neighbours = drawing.of(one.id), job.neighbours[one.id]
     made = _compose_student_paper(job, one, drawing.bank, drawn)
     paper = _assign_student_code(job, one, made)
-    sheets = [render_paper(paper, kind, "pdf") for kind in KINDS]
+    printed, places = _print_paper(job.settings, paper)
     evict_cache(PRETENDED)
     former = tuple(sorted({*job.former[one.id]} - {paper.code}))
     head = PrintedHead(
@@ -534,11 +539,10 @@ def _make_student_files(
         former=former,
         minutes=paper.minutes,
     )
-    files = dict(zip(_list_student_files(one), [*sheets, write_blank_form(paper)], strict=True))
-    places = None
+    files = dict(zip(_list_student_files(one), [*printed, write_blank_form(paper)], strict=True))
     if job.sheet:
         files[f"{SHEETS}/{one.file}.pdf"], places = make_answer_sheet(
-            paper, partial(format_sheet_code, job.settings.secret, paper.code)
+            paper, partial(format_sheet_code, job.settings.secret, paper.code, VERSION)
         )
     files |= {f"{DATA}/{one.file}/{name}": data for name, data in paper.data_files.items()}
     return GeneratedPaper(
@@ -550,6 +554,15 @@ def _make_student_files(
         "".join(item.questions[0].tier for item in paper.items),
         _find_shared_questions(drawn, [drawing.of(other) for other in neighbours]),
     )
+
+
+def _print_paper(settings: ClassSettings, paper: Paper) -> tuple[list[bytes], SheetPlaces | None]:
+    """Return paper and solutions, and the places of fields if the paper is to be scanned."""
+    if not settings.scan:
+        return [render_paper(paper, kind, "pdf") for kind in KINDS], None
+    codes = partial(format_sheet_code, settings.secret, paper.code, PAPER_VERSION)
+    asked, places = render_scanned_paper(paper, codes)
+    return [asked, *(render_paper(paper, kind, "pdf") for kind in KINDS[1:])], places
 
 
 def _compose_student_paper(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import lru_cache
 from itertools import accumulate
@@ -35,7 +35,8 @@ from quizgen.maths.tolerance import RULES
 from quizgen.paper.answer_key import AnswerKey, KeyPart, KeyQuestion
 from quizgen.paper.grading import PartResult, QuestionGrader
 
-TO_DECIDE = frozenset({"open", "unreadable", "ambiguous"})
+UNREAD = "unreadable"
+TO_DECIDE = frozenset({"open", UNREAD, "ambiguous"})
 """What a person is asked about."""
 DROPPED = "dropped"
 KEPT = "kept: better with it"
@@ -59,6 +60,8 @@ class Submission:
         Where it stands.
     minutes : float, optional
         Time that was taken, where it is known.
+    seconds : mapping of str to float
+        Number of a question to the time for which a browser showed it.
     """
 
     student: str
@@ -67,6 +70,7 @@ class Submission:
     decimal: str = "auto"
     file: str = ""
     minutes: float | None = None
+    seconds: Mapping[str, float] = field(default_factory=dict)
 
 
 class GradedClassPart(msgspec.Struct, frozen=True, omit_defaults=True):
@@ -109,6 +113,7 @@ class StudentMarks(msgspec.Struct, frozen=True, omit_defaults=True):
     decimal: str = "auto"
     file: str = ""
     minutes: float | None = None
+    seconds: dict[str, float] = {}
 
     @property
     def filled_count(self) -> int:
@@ -146,6 +151,11 @@ def item_name_from_parts(template: str, number: str, part: str) -> str:
     return f"{template}/{label}" if label else template
 
 
+def question_number(part: str, item: str) -> str:
+    """Return the number of the question of a part: ``3`` for ``3b``, which is ``b`` of its item."""
+    return part.removesuffix(item.partition("/")[2])
+
+
 def grade_submission(
     key: AnswerKey, sheet: Submission, book: RulingBook, scale: GradeScale | None = None
 ) -> StudentMarks:
@@ -177,7 +187,13 @@ def grade_submission(
     ]
     counted = _drop_items(parts, book, sheet.student, scale or GradeScale())
     return StudentMarks(
-        sheet.student, tuple(counted), lang, sheet.decimal, sheet.file, sheet.minutes
+        sheet.student,
+        tuple(counted),
+        lang,
+        sheet.decimal,
+        sheet.file,
+        sheet.minutes,
+        dict(sheet.seconds),
     )
 
 
@@ -263,7 +279,8 @@ def _apply_decisions(
     found: PartResult, part: KeyPart, item: str, rulings: list[Ruling], student: str
 ) -> GradedClassPart:
     """Return the mark of an answer after the rulings about it."""
-    asked = found.status in TO_DECIDE
+    unseen = not found.marks and is_on_paper(found.typed)  # to a gap the words are a wrong term
+    asked = unseen or found.status in TO_DECIDE
     kind = part.spec["kind"]
     words = kind == "rubric"
     group = ""
@@ -275,7 +292,7 @@ def _apply_decisions(
         found.id,
         item,
         found.typed,
-        found.status,
+        UNREAD if unseen and found.status not in TO_DECIDE else found.status,
         float(found.points),
         None if asked else float(found.marks or 0),
         found.verdict.note,

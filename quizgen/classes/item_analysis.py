@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from statistics import median
 
 import numpy as np
 
-from quizgen.classes.grading import DROPPED, GradedClassPart, StudentMarks
+from quizgen.classes.grading import DROPPED, GradedClassPart, StudentMarks, question_number
 from quizgen.classes.key_index import PaperOutline
 from quizgen.classes.statistics import (
     ScoreTable,
@@ -61,6 +62,8 @@ class ItemStatistics:
         Option, how many had it, how many chose it; the least chosen first.
     numbers : tuple of str
         Under which it is printed: one, where all papers have the same order.
+    seconds : tuple of float
+        For which a browser showed the whole question to those who sat it there.
     """
 
     item: str
@@ -73,6 +76,12 @@ class ItemStatistics:
     mistakes: tuple[ClassMistake, ...]
     options: tuple[tuple[str, int, int], ...]
     numbers: tuple[str, ...] = ()
+    seconds: tuple[float, ...] = ()
+
+    @property
+    def minutes(self) -> float | None:
+        """Return the median time of the whole question in minutes; None if none is known."""
+        return median(self.seconds) / 60 if self.seconds else None
 
     @property
     def number(self) -> str:
@@ -130,9 +139,12 @@ class _Counts:
         self.had: Counter[str] = Counter()
         self.chosen: Counter[str] = Counter()
         self.numbers: dict[str, None] = {}
+        self.seconds: list[float] = []
 
-    def add(self, part: GradedClassPart, student: str, options: Iterable[str]) -> None:
+    def add(self, part: GradedClassPart, marks: StudentMarks, options: Iterable[str]) -> None:
         """Count one student's part; ``options`` are those its paper showed."""
+        time = marks.seconds.get(question_number(part.id, part.item))
+        self.seconds += [] if time is None else [time]
         self.points = max(self.points, part.points)
         self.numbers[part.id] = None
         self.blank += part.status == "blank"
@@ -142,7 +154,7 @@ class _Counts:
             self.chosen.update(part.chosen)
         if part.note and part.status in WRONG:
             self.notes[part.note] += 1
-            self.examples.setdefault(part.note, MistakeExample(student, part.id, part.typed))
+            self.examples.setdefault(part.note, MistakeExample(marks.student, part.id, part.typed))
 
     def mistakes(self) -> tuple[ClassMistake, ...]:
         """Return the mistakes, the most frequent first."""
@@ -169,7 +181,7 @@ def analyse_class(pairs: Iterable[tuple[StudentMarks, PaperOutline]]) -> ClassAn
     draws, totals, points, minutes = VariantDifficulty(), [], 0.0, []
     for marks, outline in pairs:
         for part in marks.parts:
-            counts[part.item].add(part, marks.student, outline.options.get(part.item, ()))
+            counts[part.item].add(part, marks, outline.options.get(part.item, ()))
         by_item.append(_index_points_by_item(marks.parts))
         questions = _sum_points_by_question(marks.parts)
         by_question.append(questions)
@@ -255,4 +267,5 @@ def _compute_item_figures(
         counts.mistakes(),
         counts.options(),
         tuple(counts.numbers),
+        tuple(counts.seconds),
     )

@@ -10,7 +10,7 @@ import secrets
 import statistics
 import time
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
 from fractions import Fraction
@@ -25,7 +25,7 @@ from quizgen.classes.agreement import SETTLED, is_settlement
 from quizgen.classes.class_folder import ClassFolder, PrintedHead
 from quizgen.classes.exam_details import FILE as EXAM
 from quizgen.classes.exam_details import read_exam_details
-from quizgen.classes.grading import StudentMarks
+from quizgen.classes.grading import GradedClassPart, StudentMarks, Submission, grade_submission
 from quizgen.classes.grading_history import GradingHistory
 from quizgen.classes.key_index import KeyIndex
 from quizgen.classes.lock import lock_folder
@@ -51,12 +51,20 @@ from quizgen.classes.rulings import (
     FILE,
     SECOND,
     Ruling,
+    RulingBook,
     blank_group,
+    is_on_paper,
     latest_rulings,
     note_rulings,
     read_rulings,
 )
-from quizgen.classes.scanning.scan_folder import REPORT, SCANS, find_crop
+from quizgen.classes.scanning.scan_folder import (
+    REPORT,
+    SCANS,
+    TYPED,
+    ScanFolder,
+    find_crop,
+)
 from quizgen.core.errors import ClassError
 from quizgen.locale import BOTH, FIRST
 
@@ -117,9 +125,9 @@ class AnswerCard:
         """Return of how many students it is."""
         return sum(case.answer.students for case in self.cases)
 
-    def is_decided(self, said: Mapping[str, Ruling]) -> bool:
+    def is_decided(self, done: Container[str]) -> bool:
         """Return whether every group of it has been decided."""
-        return all(group in said for group in self.groups)
+        return all(group in done for group in self.groups)
 
 
 class WrittenAnswer(NamedTuple):
@@ -157,6 +165,12 @@ class AnswerIndex:
             self.items.setdefault(card.item, []).append(card)
             self.worth |= dict.fromkeys(card.groups, card.worth)
         self.items = dict(sorted(self.items.items(), key=lambda one: self._order(one[0])))
+        self.on_paper = {
+            self.students[case.answer.group][0]: case.answer.group
+            for cards in self.items.values() for card in cards for case in card.cases
+            if self.is_to_be_read(case)
+        }  # fmt: skip
+        """What nobody has typed and a picture shows, to the group."""
         self._names = {one.id: one.name for one in self.folder.students()}
 
     def _order(self, item: str) -> tuple[int, str]:
@@ -198,6 +212,21 @@ class AnswerIndex:
                                                    part.points))  # fmt: skip
         return found
 
+    def is_to_be_read(self, case: DecisionCase) -> bool:
+        """Return whether an answer stands on a picture, and nobody had typed it."""
+        typed = case.answer.typed
+        return (not typed.strip() or is_on_paper(typed)) and self.crop(
+            *self.students[case.answer.group][0]
+        ) is not None
+
+    def judge(self, whose: WrittenAnswer, typed: str) -> GradedClassPart:
+        """Return what an answer of a student would earn, if it is all that was typed."""
+        key = self.keys.key(whose.student)
+        made = grade_submission(
+            key, Submission(whose.student, {whose.part: typed}, key.langs[0]), RulingBook([])
+        )
+        return next(part for part in made.parts if part.id == whose.part)
+
     def head(self, student: str) -> PrintedHead:
         """Return what was printed for a student."""
         return self.keys.places[student][0]
@@ -220,11 +249,15 @@ class AnswerIndex:
 
 @dataclass(frozen=True)
 class MarkingState:
-    """Who has decided what: of each group the last ruling of the first and of a second marker."""
+    """Who has decided what: of each group the last ruling of the first and of a second marker.
+
+    ``typed`` is what people typed beside pictures, by student and part.
+    """
 
     rulings: tuple[Ruling, ...]
     first: Mapping[str, Ruling]
     second: Mapping[str, Ruling]
+    typed: Mapping[tuple[str, str], str]
 
     def list_decisions(self, *, second: bool) -> Mapping[str, Ruling]:
         """Return the decisions of one of the two rounds."""
@@ -287,17 +320,50 @@ class MarkingDesk:
 
     def state(self) -> MarkingState:
         """Return who has decided what; read anew after somebody has."""
-        stamp = _stamp(self.folder / FILE)
+        stamp = _stamp(self.folder / FILE), _stamp(self.folder / SCANS / TYPED)
         with self._lock:
             if self._state is None or self._state[0] != stamp:
                 rulings = tuple(read_rulings(self.folder))
                 self._state = (
                     stamp,
                     MarkingState(
-                        rulings, latest_rulings(rulings, DECIDE), latest_rulings(rulings, SECOND)
+                        rulings,
+                        latest_rulings(rulings, DECIDE),
+                        latest_rulings(rulings, SECOND),
+                        ScanFolder(ClassFolder(self.folder)).read_typed(),
                     ),
                 )
             return self._state[1]
+
+    def list_typed(self) -> dict[str, str]:
+        """Return what was typed beside pictures since the class was marked, by the group."""
+        typed, places = self.state().typed, self.index().on_paper
+        return {group: typed[whose] for whose, group in places.items()
+                if whose in typed and not is_on_paper(typed[whose])}  # fmt: skip
+
+    def list_done(self, *, second: bool) -> frozenset[str]:
+        """Return the groups that have been decided, or typed to be judged."""
+        return frozenset({*self.state().list_decisions(second=second), *self.list_typed()})
+
+    def type_answer(self, item: str, group: str, typed: str, who: str) -> GradedClassPart:
+        """Take what somebody reads on a picture as the answer; return what it will earn.
+
+        It counts once the class is marked again. ``see paper`` takes back what was typed.
+
+        Raises
+        ------
+        ClassError
+            If the answer is not to be read, or another command writes there.
+        """
+        index = self.index()
+        place = index.find(item, group)
+        whose = index.students[group][0] if place is not None else None
+        if whose is None or index.on_paper.get(whose) != group:
+            raise ClassError(f"{item}: nothing is to be read there")
+        judged = index.judge(whose, typed)
+        with lock_folder(self.folder, PATIENCE):
+            ScanFolder(index.folder).take_typed((*whose, typed), who)
+        return judged
 
     def rubric(self, item: str) -> ItemRubric:
         """Return the rubric of an item."""
@@ -339,11 +405,11 @@ class MarkingDesk:
         what they decided themselves.
         """
         cards, state = self.index().items.get(item, []), self.state()
-        said = state.list_decisions(second=second)
+        done = self.list_done(second=second)
         order = [*range(after + 1, len(cards)), *range(after + 1)]
         still_open = [
             place for place in order
-            if not cards[place].is_decided(said)
+            if not cards[place].is_decided(done)
             and not (second and _is_decided_by(cards[place], who, state.first))
         ]  # fmt: skip
 

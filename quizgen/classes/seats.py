@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from functools import lru_cache
+from pathlib import Path
 
 import msgspec
 
@@ -18,9 +19,12 @@ from quizgen.classes.class_folder import ANSWERS, ClassFolder
 from quizgen.classes.lock import lock_folder
 from quizgen.classes.pseudonyms import student_mac
 from quizgen.classes.roster import RosterStudent
+from quizgen.classes.rulings import read_filled_rows
 from quizgen.classes.statuses import PRESENT, StudentStatus, append_status, read_statuses
+from quizgen.core.errors import ClassError
 from quizgen.core.files import PRIVATE, open_private, write_all
 from quizgen.core.untrusted import format_csv
+from quizgen.grading.echo import safe_echo
 from quizgen.paper.answer_form import FilledForm, FormStudent
 from quizgen.paper.code import SIGNS
 
@@ -30,6 +34,7 @@ BROWSER = "browser"
 """Below the folder of answers, and who says in statuses that somebody was there."""
 RECORD = "browser-record.csv"
 COLUMNS = ("when", "who", "student", "what", "more")
+WHEN = "%Y-%m-%d %H:%M:%S"
 CODE_SIGNS = 10
 """Of 32 each: 50 bits, of which a class of 300 takes fewer than 9."""
 _LOOKS_LIKE = str.maketrans("OIL", "011")
@@ -48,6 +53,10 @@ class HandedPaper:
         Part to what was typed, in one line.
     minutes : float
         Working time.
+    seconds : mapping of str to float
+        Number of a question to the time for which it was on the screen.
+    decimal : str
+        The decimal sign that the student declared, or ``auto``.
     """
 
     student: RosterStudent
@@ -55,6 +64,8 @@ class HandedPaper:
     lang: str
     answers: Mapping[str, str]
     minutes: float
+    seconds: Mapping[str, float] = field(default_factory=dict)
+    decimal: str = "auto"
 
     @property
     def is_blank(self) -> bool:
@@ -109,9 +120,37 @@ def store_handed_papers(folder: ClassFolder, papers: Iterable[HandedPaper]) -> N
 def _build_form(paper: HandedPaper) -> bytes:
     """Return a filled form as JSON."""
     student = paper.student
-    about = FormStudent(student.name, student.id, paper.lang)
-    form = FilledForm(dict(paper.answers), about, paper.code, minutes=round(paper.minutes, 1))
+    about = FormStudent(student.name, student.id, paper.lang, paper.decimal)
+    form = FilledForm(
+        dict(paper.answers), about, paper.code,
+        minutes=round(paper.minutes, 1), seconds=dict(paper.seconds),
+    )  # fmt: skip
     return msgspec.json.format(msgspec.json.encode(form)) + b"\n"
+
+
+def read_record(folder: ClassFolder) -> list[tuple[float, str, str, str]]:
+    """Return what happened in the exam so far: seconds since 1970, student, what, and what more.
+
+    Raises
+    ------
+    ClassError
+        Naming the line whose time is none.
+    """
+    path = folder.path / RECORD
+    if not path.exists():
+        return []
+    return [
+        (_parse_time(path, line, row["when"]), row["student"], row["what"], row["more"])
+        for line, row in read_filled_rows(path, {*COLUMNS})
+    ]
+
+
+def _parse_time(path: Path, line: int, text: str) -> float:
+    """Return a time of the record in seconds since 1970."""
+    try:
+        return datetime.strptime(text, WHEN).replace(tzinfo=UTC).timestamp()
+    except ValueError:
+        raise ClassError(f"{path}: line {line}: {safe_echo(text)!r} is no time") from None
 
 
 def append_record(folder: ClassFolder, who: str, student: str, what: str, more: str = "") -> None:
@@ -120,7 +159,7 @@ def append_record(folder: ClassFolder, who: str, student: str, what: str, more: 
     It is only added to.
     """
     path = folder.path / RECORD
-    when = datetime.now(UTC).strftime("%Y-%m-%d %H:%M:%S")
+    when = datetime.now(UTC).strftime(WHEN)
     rows = [(when, who, student, what, more)]
     with open_private(path) as stream:
         stream.write(format_csv(rows if path.stat().st_size else [COLUMNS, *rows]).encode())

@@ -1,4 +1,4 @@
-"""What the code of a page of an answer sheet says, signed with the secret of the class."""
+"""What the code of a page of a sheet or paper says, signed with the secret of the class."""
 
 from __future__ import annotations
 
@@ -8,16 +8,17 @@ from quizgen.classes.class_folder import ClassFolder, PrintedHead
 from quizgen.classes.pseudonyms import sheet_seal
 from quizgen.core.errors import ClassError
 from quizgen.grading.echo import safe_echo
-from quizgen.render.answer_sheet import VERSION
 
 PREFIX = "Q"
-_CODE_TEXT = re.compile(rf"{PREFIX}\d+:(?P<paper>\w+):(?P<page>\d{{1,3}}):[0-9A-F]{{8}}")
+_CODE_TEXT = re.compile(
+    rf"{PREFIX}(?P<version>\d):(?P<paper>\w+):(?P<page>\d{{1,3}}):[0-9A-F]{{8}}"
+)
 
 
-def format_sheet_code(secret: str, code: str, page: int) -> str:
+def format_sheet_code(secret: str, code: str, version: int, page: int) -> str:
     """Return what the code of a page says: layout, paper, page, and a seal under the secret."""
     bare = code.replace("-", "")
-    return f"{PREFIX}{VERSION}:{bare}:{page}:{sheet_seal(secret, code, VERSION, page)}"
+    return f"{PREFIX}{version}:{bare}:{page}:{sheet_seal(secret, code, version, page)}"
 
 
 class SheetIndex:
@@ -42,8 +43,8 @@ class SheetIndex:
         found = _CODE_TEXT.fullmatch(text.strip().upper())
         if found and found["paper"] in self._owners:
             head, at, code = self._owners[found["paper"]]
-            page = int(found["page"])
-            if format_sheet_code(self._secret, code, page) == found[0]:
+            version, page = int(found["version"]), int(found["page"])
+            if format_sheet_code(self._secret, code, version, page) == found[0]:
                 return head, at, page
         return None
 

@@ -44,7 +44,6 @@ from quizgen.classes.submissions import has_problems, read_rivals
 from quizgen.core.errors import ClassError, KeyFileError
 from quizgen.core.files import PRIVATE, write_all
 from quizgen.core.untrusted import error_context, escape_control_characters
-from quizgen.figures.inks import write_theme_css
 from quizgen.grading.feedback import name_truth
 from quizgen.grading.options import GradingOptions
 from quizgen.kinds.grade import show_key
@@ -59,6 +58,7 @@ from quizgen.paper.answer_key import AnswerKey, KeyPart, KeyQuestion
 from quizgen.paper.grading import QuestionGrader
 from quizgen.render.fonts import bangla_faces
 from quizgen.render.layouts import jinja_environment
+from quizgen.render.page_look import write_page_look
 from quizgen.render.typst_document import (
     compile_pdf,
     document_files,
@@ -256,24 +256,50 @@ def _iter_report_rows(
     """
     lang = fallback_language(marks.lang)
     words = load_words(lang, "classes")["report"]
-    marker = QuestionGrader(question, GradingOptions(lang, marks.decimal))
     given = {part.item: part for part in marks.parts}
-    for part in question.parts:
-        found = given.get(item_name(question, part))
-        if found is None:
-            continue
-        again = marker.grade_part(part, found.typed)
-        full = again.is_blank or found.marks == found.points
-        message = "" if full or _is_persons(found) else again.verdict.message
+    pairs = [
+        (part, found)
+        for part in question.parts
+        if (found := given.get(item_name(question, part))) is not None
+    ]
+    messages = _explain_parts(question, pairs, GradingOptions(lang, marks.decimal))
+    for part, found in pairs:
         said = [_format_remark(found, words), *_iter_objection_lines(part.id, objections, words)]
         yield ReportPart(
             part.id.removeprefix(question.number),
             _format_typed_answer(found.typed, part.spec["kind"], words, lang),
             _format_right_answer(part, lang),
             _format_points(found, lang),
-            message,
+            messages.get(part.id, ""),
             "\n".join(filter(None, said)),
         )
+
+
+def _explain_parts(
+    question: KeyQuestion,
+    pairs: Sequence[tuple[KeyPart, GradedClassPart]],
+    options: GradingOptions,
+) -> dict[str, str]:
+    """Return what the machine says of those answers for which it took points, by part.
+
+    Nothing after the last of them is judged again; what stands before may be carried forward.
+    """
+    marker = QuestionGrader(question, options, proven=True)
+    asked = [part.id for part, found in pairs if _lost_points_by_machine(found)]
+    messages: dict[str, str] = {}
+    for part, found in pairs:
+        if len(messages) == len(asked):
+            break
+        if part.id in asked:
+            messages[part.id] = marker.grade_part(part, found.typed).verdict.message
+        elif question.chain is not None:
+            marker.judge_part(part, found.typed)
+    return messages
+
+
+def _lost_points_by_machine(part: GradedClassPart) -> bool:
+    """Return whether something was typed that is not worth all points, which no person said."""
+    return bool(part.typed.strip()) and part.marks != part.points and not _is_persons(part)
 
 
 def _is_persons(part: GradedClassPart) -> bool:
@@ -351,9 +377,9 @@ def report_environment() -> jinja2.Environment:
 
 @cache
 def report_css() -> Markup:
-    """Return the style sheet of those pages, with the colours of the theme."""
+    """Return the style sheet of those pages, in the look that all pages share."""
     page = (files(PACKAGE) / "pages" / "report.css").read_text(encoding="utf-8")
-    return Markup(write_theme_css() + page)
+    return Markup(write_page_look() + page)
 
 
 def report_to_pdf(

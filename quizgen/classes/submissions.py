@@ -32,13 +32,15 @@ from quizgen.core.untrusted import (
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.options import DECIMALS
 from quizgen.locale import list_languages
-from quizgen.paper.answer_form import read_filled_form
+from quizgen.paper.answer_form import FilledForm, read_filled_form
 
 TABLES = (".csv", ".xlsx")
 FORMS = (".toml", ".json", *TABLES)
 ABOUT = ("decimal", "minutes", "code")
 """Columns of a table that are no answers, apart from those of a roster."""
 CONFLICTS, PROBLEMS = "conflicts.csv", "problems.csv"
+LONGEST = 1e6
+"""Seconds for a question that can be meant."""
 NOTE = "#"
 """What the name of a column begins with that is nobody's answer."""
 
@@ -180,8 +182,9 @@ class Submissions:
         typed = form.list_typed_texts()
         if odd := [name for name in unknown if typed[name].strip()]:
             raise KeyFileError(self._describe_unknown_parts(student, odd))
-        where, minutes = self._name_file(path), _parse_minutes({"minutes": str(form.minutes)})
-        return Submission(student, answers, about.lang, about.decimal, where, minutes)
+        where, minutes = self._name_file(path), _parse_time(str(form.minutes))
+        times = minutes, _read_seconds(form)
+        return Submission(student, answers, about.lang, about.decimal, where, *times)
 
     def _name_parts(self, student: str) -> PartNames:
         """Return the names of the parts of a student's paper."""
@@ -243,7 +246,7 @@ class Submissions:
                 continue
             answers, unknown = parts.sort_answers(typed)
             about = *_read_language_and_decimal(cells), self._name_file(table.path)
-            sheet = Submission(student, answers, *about, _parse_minutes(cells))
+            sheet = Submission(student, answers, *about, _parse_time(cells.get("minutes", "")))
             read.append((line, sheet, {name: typed[name].strip() for name in unknown}))
         if odd := "" if table.is_long else _find_foreign_column([one for *_, one in read]):
             raise KeyFileError(
@@ -333,9 +336,15 @@ def _read_language_and_decimal(cells: Mapping[str, str]) -> tuple[str, str]:
     return lang if lang in list_languages() else "", decimal if decimal in DECIMALS else DECIMALS[0]
 
 
-def _parse_minutes(cells: Mapping[str, str]) -> float | None:
-    """Return the minutes in a row; None if there is no number."""
-    text = cells.get("minutes", "").strip().replace(",", ".")
+def _read_seconds(form: FilledForm) -> dict[str, float]:
+    """Return the time of each question in a form; what can be no time is left out."""
+    times = {name: _parse_time(str(text)) for name, text in form.seconds.items()}
+    return {name: time for name, time in times.items() if time is not None and time <= LONGEST}
+
+
+def _parse_time(text: str) -> float | None:
+    """Return a number of minutes or seconds; None if there is none."""
+    text = text.strip().replace(",", ".")
     return float(text) if text.replace(".", "", 1).isdecimal() and text.isascii() else None
 
 

@@ -13,6 +13,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from statistics import median
 
 import numpy as np
 
@@ -30,7 +31,7 @@ from quizgen.core.untrusted import format_csv
 
 FILE = "templates.csv"
 COLUMNS = ("template", "part", "classes", "students", "points", "difficulty", "discrimination",
-           "blank", "a", "b", "mistakes")  # fmt: skip
+           "blank", "minutes", "a", "b", "mistakes")  # fmt: skip
 ENOUGH = 200
 """Answers to an item from which the two-parameter model is fitted."""
 FEWEST_ITEMS = 4
@@ -85,6 +86,12 @@ class PartHistory:
         return math.tanh(sum(n * math.atanh(r) for n, r in rows) / total) if total else None
 
     @property
+    def minutes(self) -> float | None:
+        """Return the median time of the whole question over all whose time is known."""
+        known = [time for one in self.found for time in one.seconds]
+        return median(known) / 60 if known else None
+
+    @property
     def mistakes(self) -> Counter[str]:
         """Return how many students made each named mistake."""
         found = Counter[str]()
@@ -99,7 +106,7 @@ class PartHistory:
         values = (points, self.difficulty, self.discrimination)
         return [self.template, self.part, " ".join(self.classes), str(self.students),
                 *map(_format_value, values), str(sum(one.blank for one in self.found)),
-                *map(_format_value, (self.slope, self.place)), named]  # fmt: skip
+                *map(_format_value, (self.minutes, self.slope, self.place)), named]  # fmt: skip
 
 
 def _format_value(value: float | None) -> str:

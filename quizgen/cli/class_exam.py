@@ -37,15 +37,16 @@ class ClassOpenOptions(TypedDict):
 def admit(folder: Path, address: str, lang: str) -> None:
     """Write cards with the codes by which the class in FOLDER comes into the exam in the browser.
 
-    lists/admission.pdf has eight on a page, in the order of the seats. Each code works once.
+    lists/admission.pdf has eight on a page, in the order of the seats. Each code works once. With
+    safe_exam_browser = true in exam.toml it also writes lists/exam.seb, which students open.
     """
-    from quizgen.classes.admission import write_admission_cards
+    from quizgen.classes.admission import write_admission_files
     from quizgen.classes.class_folder import ClassFolder
 
     if not address.startswith(("http://", "https://")) or len(address) > 200:
         raise click.BadParameter("begins with http:// or https://", param_hint="--address")
-    written = write_admission_cards(ClassFolder(folder), address.rstrip("/"), lang)
-    print_sentence(str(written))
+    for path in write_admission_files(ClassFolder(folder), address.rstrip("/"), lang):
+        print_sentence(str(path))
     print_sentence(f"The exam: quizgen class open {folder}")
 
 

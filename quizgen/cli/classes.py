@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Unpack
 
 import click
+import msgspec
 
 from quizgen.cli import class_exam, class_grading, class_scan
 from quizgen.cli.options import (
@@ -60,6 +61,7 @@ class ClassMakeOptions(BankOptions):
     vary: bool
     one_file: bool
     sheet: bool
+    scan: bool
     about: Path | None
     preview: bool
     not_from: tuple[Path, ...]
@@ -84,6 +86,7 @@ class ClassMakeOptions(BankOptions):
 @click.option("--not-from", type=click.Path(path_type=Path), multiple=True,
               help="Folder of an earlier class, none of whose questions is asked.")  # fmt: skip
 @click.option("--sheet", is_flag=True, help="Compact answer sheets, too, for a scanner.")
+@click.option("--scan", is_flag=True, help="Papers that a scanner reads, page by page.")
 @click.option("--one-file", is_flag=True, help="Write print.pdf, too: all papers, for the printer.")
 @jobs_option
 @click.option("--scheduler", default="", help="Dask scheduler that makes them: tcp://HOST:8786.")
@@ -103,6 +106,8 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
 
     if options["one_file"]:
         require_extra("print", "quizgen class make --one-file")
+    if options["sheet"] and options["scan"]:
+        raise click.UsageError("--scan prints whole papers to be read, --sheet a sheet: take one")
     about = _read_about(options["about"])
     unread: list[str] = []
     students = read_roster(options["roster"], _parse_columns(options["columns"]), unread.append)
@@ -113,6 +118,8 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
         blueprint = _open_class_blueprint(folder, students, options)
         if about:
             write_all(folder.path, {EXAM: about}, PRIVATE)
+        if options["sheet"] and folder.settings.scan:
+            raise ClassError(f"{folder.path}: its papers are read whole; they need no sheets")
         if options["preview"]:
             _write_preview(folder, blueprint)
             return
@@ -132,14 +139,14 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
 def code(folder: Path, printed: str) -> None:
     """Say whose paper of the class in FOLDER has the PRINTED code, and that it is unaltered.
 
-    What the square code on a page of an answer sheet says is taken, too.
+    What the square code on a page says is taken, too.
     """
     from quizgen.classes.class_folder import ClassFolder
     from quizgen.classes.sheet_codes import find_sheet_page
 
     if ":" in printed:
         head, page = find_sheet_page(ClassFolder(folder), printed)
-        click.echo(f"{head.code}: {to_one_line(head.id)}, page {page} of the answer sheet")
+        click.echo(f"{head.code}: {to_one_line(head.id)}, page {page}")
         return
     found = ClassFolder(folder).find_by_code(printed)
     click.echo(f"{found.head.code}: {to_one_line(found.head.id)}")
@@ -305,8 +312,14 @@ def _open_class_blueprint(
             for name in family
         }
         settings = create_settings(
-            name, bank, blueprint, lang, vary=options["vary"], without=sorted(without)
+            name,
+            bank,
+            blueprint,
+            lang,
+            vary=options["vary"],
+            without=sorted(without),
         )
+        settings = msgspec.structs.replace(settings, scan=options["scan"])
         folder.create(settings, students)
         return blueprint
     settings = folder.settings
@@ -315,6 +328,9 @@ def _open_class_blueprint(
             f"{folder.path}: is of a quiz that was played, or was forgotten: it has no papers"
         )
     _check_same_options(folder, options)
+    if options["scan"] and not settings.scan:
+        settings = msgspec.structs.replace(settings, scan=True)
+        folder.change_settings(settings)
     return load_blueprint(options["blueprint"] or settings.blueprint, open_class_bank(settings))
 
 

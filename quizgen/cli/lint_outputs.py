@@ -49,13 +49,13 @@ def check_sheet(bank: Bank) -> Iterator[Diagnostic]:
     """Yield what fails when the formula sheet of a bank is rendered."""
     from quizgen.bank.formulas import read_formulas
     from quizgen.question.formula_sheet import compose_sheet
-    from quizgen.render import RENDERERS, render_sheet
+    from quizgen.render import SHEET_FORMATS, render_sheet
 
     if not read_formulas(bank):
         return
     # A language that only some templates have is none of the sheet's.
     made = compose_sheet(bank, "both" if len(bank.languages) > 1 else bank.languages[0])
-    for output in RENDERERS:
+    for output in SHEET_FORMATS:
         make = partial(render_sheet, made, output)
         failure = _diagnose_failure(
             bank.folder / "cards" / "formulas.toml", f"sheet {output}", make

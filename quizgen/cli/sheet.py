@@ -19,7 +19,7 @@ from quizgen.cli.options import (
 )
 from quizgen.cli.terminal import format_count
 from quizgen.locale import default_language
-from quizgen.render import RENDERERS
+from quizgen.render import SHEET_FORMATS
 
 NAME = "formulas"
 
@@ -36,7 +36,7 @@ class SheetOptions(BankOptions):
 @click.command()
 @click.option("--lang", type=LanguageParam(both=True), help=LANGUAGE_HELP)
 @click.option("--topic", "topics", help="Only these topics, by comma.")
-@click.option("--format", "formats", default=",".join(RENDERERS), show_default=True,
+@click.option("--format", "formats", default=",".join(SHEET_FORMATS), show_default=True,
               help="html (with all remarks), pdf (to print); by comma.")  # fmt: skip
 @click.option("--out", type=click.Path(path_type=Path), default=Path("sheet"), show_default=True,
               help="Folder to write to.")  # fmt: skip
@@ -48,11 +48,11 @@ def sheet(**options: Unpack[SheetOptions]) -> None:
     from quizgen.render import render_sheet
 
     formats = [
-        match_choice("--format", name, RENDERERS) for name in split_names(options["formats"])
+        match_choice("--format", name, SHEET_FORMATS) for name in split_names(options["formats"])
     ]
     if not formats:
         raise click.BadParameter(
-            f"no format (allowed: {', '.join(RENDERERS)})", param_hint="--format"
+            f"no format (allowed: {', '.join(SHEET_FORMATS)})", param_hint="--format"
         )
     bank = open_sound_bank(options)
     topics = [resolve_topic(bank, name) for name in split_names(options["topics"])]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any, Literal
+from typing import Any, Literal, TypeAlias, get_args
 
 import msgspec
 
@@ -15,6 +15,9 @@ Values = Mapping[str, Any]
 
 ABSENT = math.nan
 """Default of a parameter that may be left out altogether."""
+
+
+Kind: TypeAlias = Literal["number", "list", "table", "text", "texts"]
 
 
 class Parameter(msgspec.Struct, frozen=True):
@@ -32,8 +35,9 @@ class Parameter(msgspec.Struct, frozen=True):
         Allowed range of each number, both ends included.
     whole : bool
         Only whole numbers: a code or a count.
-    kind : {"number", "list", "table", "text"}
-        A number; a list of numbers; a list of lists of equal length; words or a name.
+    kind : {"number", "list", "table", "text", "texts"}
+        A number; a list of numbers; a list of lists of equal length; words or a name; a list of
+        these.
     """
 
     unit: str
@@ -42,7 +46,7 @@ class Parameter(msgspec.Struct, frozen=True):
     low: float = -math.inf
     high: float = math.inf
     whole: bool = False
-    kind: Literal["number", "list", "table", "text"] = "number"
+    kind: Kind = "number"
 
 
 def fill_defaults(figure: str, table: Mapping[str, Parameter], values: Values) -> dict[str, Any]:
@@ -71,12 +75,16 @@ def _check_value(figure: str, name: str, rule: Parameter, values: Values) -> Any
         is_absent = isinstance(rule.default, float) and math.isnan(rule.default)
         return None if is_absent else rule.default
     value = values[name]
+    require(figure, rule.kind in get_args(Kind), f"{name}: there is no kind {rule.kind!r}")
     if rule.kind == "text":
         require(figure, isinstance(value, str), f"{name} = {value!r} is no text")
         return value
     if rule.kind == "number":
         return _check_number(figure, name, rule, value)
     rows = _require_list(figure, name, value)
+    if rule.kind == "texts":
+        require(figure, all(isinstance(one, str) for one in rows), f"{name}: not all are texts")
+        return tuple(rows)
     if rule.kind == "list":
         return tuple(_check_number(figure, name, rule, item) for item in rows)
     table = [_require_list(figure, name, row) for row in rows]

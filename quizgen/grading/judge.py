@@ -194,19 +194,27 @@ def _say_note(spec: AnySpec, verdict: Verdict, lang: str, *, reveal: bool) -> st
     name = verdict.note.removeprefix("trap:")
     if name == verdict.note:
         said = feedback_sentence(lang, verdict.note, verdict.fields) if name else ""
-        withheld = spec.reasons_tell and not reveal
-        reasons = "" if withheld else _join_author_reasons(spec, verdict, lang)
+        reasons = _join_author_reasons(spec, verdict, lang, reveal=reveal)
         return " ".join(filter(None, (said, _find_common_reason(verdict, lang), reasons)))
     return spec.notes.get(lang, {}).get(name) or feedback_sentence(lang, "trap", verdict.fields)
 
 
-def _join_author_reasons(spec: AnySpec, verdict: Verdict, lang: str) -> str:
-    """Return why what was chosen is wrong, in the author's words; empty if there are none."""
+def _join_author_reasons(spec: AnySpec, verdict: Verdict, lang: str, *, reveal: bool) -> str:
+    """Return why what was chosen is wrong, in the author's words; empty if there are none.
+
+    Without ``reveal`` a reason that tells the answer in any of its languages is left out.
+    """
     known = spec.why.get(lang) if isinstance(spec, WordSpec) else None
     chosen = verdict.fields.get("because", ())
-    if not known or not isinstance(chosen, tuple):
+    if not known or not isinstance(chosen, tuple) or not isinstance(spec, WordSpec):
         return ""
-    return " ".join(dict.fromkeys(known[label] for label in chosen if label in known))
+    said = (
+        known[label]
+        for label in chosen
+        if label in known
+        and (reveal or not any(spec.tells(label, one.get(label, "")) for one in spec.why.values()))
+    )
+    return " ".join(dict.fromkeys(said))
 
 
 def _find_common_reason(verdict: Verdict, lang: str) -> str:

@@ -49,8 +49,6 @@ class SpecBase:
     """What an answer is made of, which says what may be dropped around it."""
     may_be_range: ClassVar[bool] = False
     """Whether ``from 5 to 10`` can be two of its values: cells of a table, no coordinates."""
-    reasons_tell: ClassVar[bool] = False
-    """Whether the reasons for a wrong answer hold the right one."""
 
     def quantities(self) -> list[str]:
         """Return the names of the chain's quantities, in the order of the values."""
@@ -118,6 +116,10 @@ class WordSpec(SpecBase, msgspec.Struct, kw_only=True, frozen=True, omit_default
         ValueError
             If fields contradict each other.
         """
+
+    def tells(self, _label: str, _reason: str, /) -> bool:
+        """Return whether the reason for what was chosen wrongly says what is right."""
+        return False
 
 
 class NumericSpec(SpecBase, Tolerance, kw_only=True, frozen=True):

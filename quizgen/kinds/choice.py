@@ -11,7 +11,7 @@ import msgspec
 
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import fold_word
-from quizgen.grading.judging.wordings import find_wording
+from quizgen.grading.judging.wordings import find_wording, holds_wording
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, says_otherwise
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, PICTURES, normalise_typed
@@ -85,7 +85,8 @@ _LABELLED = re.compile(
 _BEHIND = re.compile(r"(?P<words>.{2,}?) ?[\[(](?P<mark>[A-Za-zক-ঞ])[\])]")
 _FILLING = re.compile(r"^(?:option|অপশন) ", re.IGNORECASE)
 _IT_IS = re.compile(
-    r"^(?:(?:it|this|that)(?: is|'s)|(?:it|this|that)(?= isn't)|the (?:statement|claim) is|বিবৃতিটি"
+    r"^(?:(?:it|this|that)(?: is|'s)|(?:it|this|that)(?= isn't)"
+    r"|the (?:statement|claim)(?: is|(?= holds))|বিবৃতিটি"
     r"|(?:es|das|der satz|die (?:aussage|behauptung))(?: ist)?|ist|এটা|এটি) ",
     re.IGNORECASE,
 )
@@ -96,13 +97,19 @@ _DENIED = re.compile(
 """A word that is denied: what is not true is false, and the other way round."""
 _TRUTH_FIRST = re.compile(
     r"(?P<first>[^\s,;:.(]+)(?!(?<=\d)[.,]\d)"
-    r"(?:[,;:.] ?| (?=\()|[-–—] | (?=it |they |this |that |weil |because ))(?P<rest>.+)"
+    r"(?:[,;:.] ?| (?=\()| ?[-–—] | (?=it |they |this |that |weil |because ))(?P<rest>.+)"
 )
 """*Yes* or *false* with a reason behind it; ``0.5`` is neither."""
 _SHORT_DENIAL = re.compile(
-    r"(?:it|they|this|that|he|she) (?:does|do|is|are|was|has|can|will)(?P<no>(?: not|n't))?(?: .*)?"
+    r"(?:it|they|this|that|he|she) (?:does|do|is|are|was|has|can|will)(?P<no>(?: not|n't))?"
 )
-"""What is said behind *yes* or *no*: ``it does``, ``they are not``."""
+"""What is said behind *yes* or *no*: ``it does``, ``they are not``. With more it is a reason."""
+_CONCLUSION = re.compile(
+    r".+(?:[,;.] ?| )(?:so|thus|hence|therefore|daher|deshalb|also|তাই|সুতরাং|->|=>|→|⇒) "
+    r"(?P<rest>(?:it is |it's |das ist )?\S+)",
+    re.IGNORECASE | re.DOTALL,
+)
+"""What is concluded at the end: ``it is linear, so true``, ``less motion blur -> B``."""
 _PIECES = re.compile(r"[;\n]|,(?=\s*[\[(]?[A-Za-zক-ঞ\d][\])]?\s*[).:=-])")
 _BENGALI = re.compile(r"[\u0980-\u09ff]")
 _SET_OFF = re.compile(r"^[\[(]?(?:[^\W_]|\d{2}) ?[\]).:=-]+ ?[^\s,;]{2}|[\[(][^\W\d_][\])]$")
@@ -215,6 +222,13 @@ class ChoiceSpec(WordSpec, kw_only=True, frozen=True):
             raise FormulaReadError("one-option", 1, safe_echo(typed))
         return _judge_single_option(self, chosen[0])
 
+    def tells(self, _label: str, reason: str, /) -> bool:
+        """Return whether a reason has the words of a right option."""
+        return any(
+            holds_wording(reason, self.options[one - 1])
+            for one in self.correct[: len(self.options)]
+        )
+
     def show(self) -> str:
         """Return the letters of the right options, or the word for true or false."""
         return _format_options(self, self.correct)
@@ -264,6 +278,9 @@ def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:
 
     Also that of ``the fourth``. None is meant where words deny it or another letter stands there.
     """
+    reasoned = _find_reasoned_letter(spec, typed)
+    if reasoned:
+        return reasoned
     text = typed.strip(_AROUND)
     place = _PLACE.fullmatch(text)
     if place is not None and not find_wording(text, spec.choices()):
@@ -278,6 +295,43 @@ def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:
         return []
     position = LETTERS.find(named["mark"]) + 1
     return [position] if position <= len(spec.choices()) else []
+
+
+def _find_reasoned_letter(spec: ChoiceSpec, typed: str) -> list[int]:
+    """Return the option of a letter with its reason: ``B, more light``, ``more light, so B``.
+
+    None is meant where the reason names another option, by its letter or by words only it has, and
+    where it takes the letter back (``B, not sure``).
+    """
+    text = typed.strip()
+    ahead = _LETTER_AHEAD.fullmatch(text)
+    behind = None if ahead else _CONCLUSION.fullmatch(text) or _LETTER_BEHIND.fullmatch(text)
+    if ahead:
+        mark, reason = ahead["mark"], ahead["reason"]
+    elif behind:
+        mark, reason = behind["rest"].strip(_AROUND), text[: behind.start("rest")]
+    else:
+        return []
+    position = LETTERS.find(mark) + 1 if len(mark) == 1 else 0
+    if not 1 <= position <= len(spec.choices()):
+        return []
+    listed = _list_letters(spec)
+    named = {letter for letter in re.findall(r"(?<!\w)[A-Z](?!\w)", reason) if letter in listed}
+    if named - {mark} and not (_OTHERS_ARE_WRONG.fullmatch(reason.strip()) and mark not in named):
+        return []
+    return [position] if find_wording(reason, spec.choices()) in {0, position} else []
+
+
+_LETTER_AHEAD = re.compile(
+    r"[\[(]?(?P<mark>[A-Z])[\])]?(?: ?[,:;.–-] ?| (?=\())"
+    r"\(?(?!(?:not|no|nicht|nein|or|oder|maybe|perhaps|if)\b)(?P<reason>\S[^()]{6,}?)\)?",
+    re.DOTALL,
+)
+"""A letter and words behind it that give the reason."""
+_LETTER_BEHIND = re.compile(r".*[^\W\d_]{3}.*, (?P<rest>[A-Z])", re.DOTALL)
+_OTHERS_ARE_WRONG = re.compile(
+    r"(?:(?:[A-Z]|and|und|,|;)\s*)+ ?(?:is|are|ist|sind) (?:wrong|false|out|falsch)", re.IGNORECASE
+)
 
 
 def _find_worded_options(spec: ChoiceSpec, typed: str) -> list[int]:
@@ -372,10 +426,13 @@ def read_truth(text: str) -> int:
     found = _find_truth_word(word) or _find_denied_truth(word)
     if found:
         return found
+    if _ALTERNATIVE.search(word):
+        return 0
     match = _TRUTH_FIRST.fullmatch(word)
     first = _find_truth_word(match["first"]) if match else 0
-    if match is None or not first or _ALTERNATIVE.search(word):
-        return 0
+    if match is None or not first:
+        concluded = _CONCLUSION.fullmatch(word)
+        return read_truth(concluded["rest"]) if concluded else 0
     rest = _IT_IS.sub("", match["rest"].strip(_AROUND))
     said = read_truth(rest) if rest else 0
     denies = _SHORT_DENIAL.fullmatch(match["rest"].strip(_AROUND))

@@ -85,7 +85,7 @@ _BRACKETS = re.compile(r"[\[\](){}]")
 _SEPARATORS = re.compile(r"[\[\](){},;\s]+")
 _PROMPT = re.compile(
     r"^(?:>>> ?|out(?:put)?(?: ?\[\d+\])? ?:|(?:ausgabe|আউটপুট|answer|antwort|উত্তর) ?:"
-    r"|(?:(?:it|the program) )?prints?\b)\s*",
+    r"|the output is\b|print gives\b|(?:(?:it|the program) )?prints?\b)\s*",
     re.IGNORECASE,
 )
 """What stands before an output that is copied or told."""

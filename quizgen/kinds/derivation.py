@@ -8,8 +8,10 @@ costs once.
 from __future__ import annotations
 
 import re
+from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from itertools import chain
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import msgspec
@@ -20,6 +22,7 @@ from quizgen.core.errors import FormulaError
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judge import read_error_verdict
 from quizgen.grading.judging.derivation import (
+    LONGEST_LINE,
     DerivationKey,
     DerivationMarker,
     MarkedDerivation,
@@ -29,7 +32,7 @@ from quizgen.grading.judging.relations import Relation, World, build_world
 from quizgen.grading.judging.sampled_equality import Domain
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm
-from quizgen.grading.reading.derivations import DerivationReader, LineReadError
+from quizgen.grading.reading.derivations import DerivationReader, DerivedLine, LineReadError
 from quizgen.grading.reading.formulas import parse_authored
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import (
@@ -56,7 +59,7 @@ from quizgen.kinds.forms import typeset_key
 from quizgen.kinds.rubric import Criterion, RubricSpec
 from quizgen.kinds.work import count_listed
 from quizgen.maths.constants import Scalar, parse_exact
-from quizgen.maths.notation import format_tree, parse_formula, pretty
+from quizgen.maths.notation import FormulaReadError, format_tree, parse_formula, pretty
 from quizgen.maths.numbers import format_for_key, to_fraction
 from quizgen.maths.tidy import tidy_formula
 from quizgen.maths.tree import Call, Expr, Num, Sym, names_in, substitute
@@ -222,6 +225,10 @@ class DerivationSpec(WordSpec, kw_only=True, frozen=True):
         """Return several relations of the key."""
         return tuple(map(self.relation, texts))
 
+    def reader(self, decimal: str) -> DerivationReader:
+        """Return what reads typed lines, with a decimal sign."""
+        return DerivationReader(self.symbols, decimal, self.goal.left)
+
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
         """Return the verdict on typed lines: each of them a cell, the first fault as its note.
 
@@ -231,9 +238,8 @@ class DerivationSpec(WordSpec, kw_only=True, frozen=True):
             If there are no lines, too many, or invisible characters.
         """
         key = self.marking_key()
-        reader = DerivationReader(self.symbols, options.decimal, self.goal.left)
         try:
-            lines = reader.read(typed)
+            lines = self.reader(options.decimal).read(typed)
         except LineReadError as error:
             found = read_error_verdict(error.why)
             fields = {**found.fields, "at_line": error.number}
@@ -245,6 +251,46 @@ class DerivationSpec(WordSpec, kw_only=True, frozen=True):
         words = " ".join(line.words for line in lines if line.words)
         found = self._suggest(marked, words, shown) if self.reasons else self._sum_up(marked, shown)
         return msgspec.structs.replace(found, cells=marked.cells)
+
+    def follow(self, typed: str, options: GradingOptions, *, judged: bool) -> tuple[Verdict, ...]:
+        """Return how each line is read while lines are written; one that cannot be is left out.
+
+        Parameters
+        ----------
+        typed : str
+        options : GradingOptions
+        judged : bool
+            Whether it is said, too, which lines hold.
+        """
+        lines, unread = self._read_rows(typed, options)
+        if judged:
+            cells = DerivationMarker(self.marking_key()).follow(lines)
+        else:
+            texts = (safe_echo(line.display_text, LONGEST_LINE) for line in lines)
+            cells = tuple(ambiguous("", text) for text in texts)
+        rows = ((*unread[place], *cells[place : place + 1]) for place in range(len(cells) + 1))
+        return tuple(chain.from_iterable(rows))
+
+    def _read_rows(
+        self, typed: str, options: GradingOptions
+    ) -> tuple[list[DerivedLine], Mapping[int, list[Verdict]]]:
+        """Return the lines that can be read, and verdicts on the others by how many are before."""
+        rows: list[str] = []
+        lines: list[DerivedLine] = []
+        unread: defaultdict[int, list[Verdict]] = defaultdict(list)
+        for row in typed.splitlines():
+            reader = DerivationReader(self.symbols, options.decimal, self.goal.left)
+            try:
+                lines = reader.read("\n".join([*rows, row]))
+            except LineReadError as error:
+                shown = safe_echo(row.strip(), LONGEST_LINE)
+                why = msgspec.structs.replace(read_error_verdict(error.why), read_as=shown)
+                unread[len(lines)].append(why)
+            except FormulaReadError:  # there is nothing yet, or too much
+                continue
+            else:
+                rows.append(row)
+        return lines, unread
 
     def _sum_up(self, marked: MarkedDerivation, shown: str) -> Verdict:
         """Return the verdict on all lines by their points."""

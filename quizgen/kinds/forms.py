@@ -102,7 +102,7 @@ def entry_matches(value: Value, text: str) -> bool:
 _EQUALS = re.compile(r"(?<![<>:!=])=(?!=)")
 _DERIVED = re.compile(
     r" *(?:\$|\\\()? *(?:\\frac ?\{ ?d\w? ?\} ?\{ ?d\w ?\}"
-    r"|d\w? ?/ ?d\w|d/d\w(?: ?\([^()]*\)| \w)?|\w+['′’]*(?:\(\w\))?|\\mathrm ?\{\w+\}) *"
+    r"|d\w? ?/ ?d\w|d/d\w(?: ?\([^()]*\)| \w)?|\w+['′’]*(?:\(\w(?:, ?\w)*\))?|\\mathrm ?\{\w+\}) *"
 )
 """What a function or its derivative is called: ``df/dx``, ``f'(x)``."""
 _IN_DOLLARS = re.compile(r" *\$([^$]*)\$ *")

@@ -68,7 +68,6 @@ class GapSpec(WordSpec, kw_only=True, frozen=True):
     """
 
     written_as: ClassVar[AnswerForm] = "word"
-    reasons_tell: ClassVar[bool] = True
 
     accept: list[list[str] | str]
     among: list[str] = msgspec.field(default_factory=list)
@@ -128,6 +127,10 @@ class GapSpec(WordSpec, kw_only=True, frozen=True):
         """Return the label of a reason: for this word in this gap, else for any wrong one in it."""
         label = f"{place}={fold_word(word)}"
         return label if any(label in reasons for reasons in self.why.values()) else str(place)
+
+    def tells(self, _label: str, _reason: str, /) -> bool:
+        """Return that a reason holds the word that is missing."""
+        return True
 
     def show(self) -> str:
         """Return the words as printed in the first language."""
@@ -277,6 +280,9 @@ def _cut_pieces(typed: str, count: int) -> list[str]:
 def _judge_gap(spec: GapSpec, gap: list[str], word: str) -> Verdict:
     """Return the verdict on one gap, by the word itself or the term that it is nearest to."""
     right = {fold_word(term) for term in gap}
+    word = _translate_word(
+        word, [*gap, *(term for one in spec.gaps() for term in one), *spec.among]
+    )
     word = _drop_idle_words(word, [term for one in spec.gaps() for term in one] + spec.among)
     folded = fold_word(word)
     if not folded:
@@ -291,6 +297,36 @@ def _judge_gap(spec: GapSpec, gap: list[str], word: str) -> Verdict:
     if folded in map(fold_word, others):
         return wrong(safe_echo(word), "other-term")
     return _judge_by_nearest_term(spec, word, gap, others)
+
+
+@cache
+def _load_translations() -> dict[str, tuple[str, ...]]:
+    """Return common words of other languages, folded, with what they say in English."""
+    return {
+        fold_word(word): tuple(said)
+        for lang in list_languages()
+        for word, said in load_words(lang, "answers").get("said", {}).items()
+    }
+
+
+def _translate_word(word: str, terms: list[str]) -> str:
+    """Return the term that a word of another language says, ``dunkler``; else the word as it is.
+
+    So does a list, ``Rot, Grün und Blau``, if all of it together is a term.
+    """
+    known = {fold_word(term): term for term in reversed(terms)}
+    pieces = [piece for piece in _LISTED.split(word) if piece]
+    if fold_word(word) in known or len(pieces) > MOST_PIECES:
+        return word
+    whole = _load_translations().get(fold_word(word), ())
+    said = [_load_translations().get(fold_word(piece), (piece,))[0] for piece in pieces]
+    found = (known.get(fold_word(one)) for one in (*whole, " ".join(said)))
+    return next(filter(None, found), word)
+
+
+_LISTED = re.compile(r"\s*(?:[,;/&\s]|\b(?:and|und|ও|এবং)\b)\s*")
+MOST_PIECES = 6
+"""Words that can be a list of them."""
 
 
 def _is_number_said_otherwise(word: str, numbers: list[str]) -> bool:

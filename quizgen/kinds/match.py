@@ -11,7 +11,7 @@ import msgspec
 
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import fold_word
-from quizgen.grading.judging.wordings import find_wording
+from quizgen.grading.judging.wordings import find_wording, holds_wording
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, is_denied
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, LONE_LETTER, PICTURES, normalise_typed
@@ -33,7 +33,15 @@ from quizgen.maths.notation import FormulaReadError
 
 _SEPARATORS = re.compile(r"[\s,;.|&\[\]{}।॥]+")
 _ARROWS = re.compile(r"\s*(?:->|=>|<->|--|[-:=>()→↔⇒⇔⟶⟷↦])+\s*|(?<=\w)[/_](?=\w)")
-_GROUPS = (r"[;\n]", r"[;\n]| (?:and|und|&|ও|এবং) ", r"[,;\n]", r"[,;\n]| (?:and|und|&|ও|এবং) ")
+_COMMAS = re.compile(r"[;,\n](?![^(]*\))\s*")
+"""What stands between sides in order, outside brackets."""
+_GROUPS = (
+    r"[;\n]",
+    r"[,;\n](?![^(]*\))\s*(?=[A-Z]\b)",
+    r"[;\n]| (?:and|und|&|ও|এবং) ",
+    r"[,;\n]",
+    r"[,;\n]| (?:and|und|&|ও|এবং) ",
+)
 """What may stand between pairs, or between all that belong to one right side."""
 _SIDES = re.compile(r"\s*(?:-+>|=>|[-:=→⇒])+\s*|\s+(?:-|is|ist|goes with|belongs to|passt zu)\s+")
 _FILLERS = frozenset(
@@ -124,6 +132,11 @@ class MatchSpec(WordSpec, kw_only=True, frozen=True):
             ),
         )
 
+    def tells(self, label: str, reason: str, /) -> bool:
+        """Return whether the reason for a left side has the words of its right one."""
+        left = next((one for one in self.pairs if label.startswith(one)), "")
+        return holds_wording(reason, self.words.get(self.pairs.get(left, ""), ""))
+
     def show(self) -> str:
         """Return the pairs as they can be typed."""
         return ", ".join(f"{left}:{right}" for left, right in self.pairs.items())
@@ -184,12 +197,18 @@ def _read_otherwise(spec: MatchSpec, typed: str) -> dict[str, str]:
 
 def _list_rights_in_order(spec: MatchSpec, text: str) -> list[tuple[str, str]]:
     """Return ``2 1 5 4`` and ``2154`` as right sides of the left ones in order; else none."""
-    marks = re.split(r"[\s,;|/]+", text)
+    marks = re.split(r"[\s,;|/-]+", text)
     if len(marks) == 1 and text.isdecimal() and len(text) == len(spec.pairs):
         marks = list(text)
-    if len(marks) != len(spec.pairs) or not all(mark.isdecimal() for mark in marks):
-        return []
-    return list(zip(spec.pairs, marks, strict=True))
+    if len(marks) == len(spec.pairs) and all(mark.isdecimal() for mark in marks):
+        return list(zip(spec.pairs, marks, strict=True))
+    worded = [_find_side(spec, words, _list_targets(spec)) for words in _COMMAS.split(text)]
+    return list(zip(spec.pairs, worded, strict=True)) if _is_whole(spec, worded) else []
+
+
+def _is_whole(spec: MatchSpec, worded: list[str]) -> bool:
+    """Return whether words name a right side for each left one, none of them twice."""
+    return len(worded) == len(spec.pairs) == len({*worded} - {""})
 
 
 def _read_groups(spec: MatchSpec, text: str) -> list[tuple[str, str]]:

@@ -11,7 +11,7 @@ import msgspec
 
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import fold_word
-from quizgen.grading.judging.wordings import find_wording
+from quizgen.grading.judging.wordings import find_wording, holds_wording
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, is_denied
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, apply_rewrite, normalise_typed
@@ -35,7 +35,9 @@ from quizgen.maths.notation import FormulaReadError
 MOST_STEPS = 40
 _LEFT_OUT = re.compile(
     r"(?P<kept>.+?)[,;]? ?\(?"
-    r"(?:without|leave out|leaving out|leaves out|ohne|বাদ) (?P<out>[^()]+)\)?",
+    r"(?:(?:without|leave out|leaving out|leaves out|ohne|বাদ) (?P<out>[^()]+)"
+    r"|(?P<wrong>[A-Za-z](?:(?:,| and| und)? [A-Za-z])*) (?:is|are|ist|sind)"
+    r" (?:wrong|false|out|falsch))\)?",
     re.IGNORECASE,
 )
 """Steps, and others that are said not to belong to them."""
@@ -66,6 +68,7 @@ _TIED = re.compile(
 """Steps set equal or beside each other among others in order: ``B = D > A``, ``E G A/B F``."""
 _FILLERS = frozenset(
     {"then", "dann", "danach", "and", "und", "তারপর", "এরপর", "এবং", "first", "zuerst", "প্রথমে", "+"}
+    | {"finally", "last", "next", "zuletzt", "শেষে"}
 )
 
 
@@ -188,6 +191,10 @@ class OrderSpec(WordSpec, kw_only=True, frozen=True):
             min(credit, Fraction(9, 10)), read_as, known, line=line, because=because
         )
 
+    def tells(self, _label: str, reason: str, /) -> bool:
+        """Return whether a reason has the words of a step: it says where that belongs."""
+        return any(holds_wording(reason, words) for words in self.words.values())
+
     def show(self) -> str:
         """Return one right order."""
         later = later_steps(self)
@@ -303,7 +310,8 @@ def _read_worded_steps(spec: OrderSpec, typed: str) -> list[str]:
             chosen = _read_labels(spec, kept["kept"])
         except FormulaReadError:
             return []
-        return [] if label is None or label.search(kept["out"]) else chosen
+        out = kept["out"] or kept["wrong"]
+        return [] if label is None or label.search(out) else chosen
     if is_denied(text) or _TIED.search(text):
         return []
     labels = [*spec.steps, *spec.distractors]

@@ -71,9 +71,9 @@ class SetSpec(VectorSpec, kw_only=True, frozen=True):
             return _judge_with_letters(self, typed, options)
         if not _ONE_COMMA.fullmatch(typed.strip()):
             return _judge(self, _elements(self, typed, None, options))
-        return self._with_one_comma(typed, options)
+        return self._judge_one_comma(typed, options)
 
-    def _with_one_comma(self, typed: str, options: GradingOptions) -> Verdict:
+    def _judge_one_comma(self, typed: str, options: GradingOptions) -> Verdict:
         """Return the verdict on ``{0,5}``, which is one decimal or two whole numbers.
 
         Raises

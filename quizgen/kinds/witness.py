@@ -300,6 +300,8 @@ def _format_side_value(side: Expr, env: dict[str, Any]) -> str | None:
 
 
 _FRONT = re.compile(rf"({NAME}) ?(?=[(\[])")
+_CALLED = re.compile(r"([^\W\d_]{2,}) ?(?=\d)")
+"""A name of several letters right before its value, ``ISO 4000``."""
 _FRACTION = re.compile(r"\d+/\d+")
 _ENGRAVED = re.compile(r"[fF] ?/ ?(?=[\d.])")
 _SEPARATOR = re.compile(rf"[;|\n]|,(?= )|(?<=\)),?|{NAMED_NEXT.pattern}")
@@ -319,6 +321,7 @@ def _read_example(spec: WitnessSpec, typed: str, decimal: str) -> dict[str, Read
     items = list(_iter_labelled_items(source, names, decimal))
     if len(items) == 1 and not items[0][0]:
         items = [("", piece) for piece in _split_unlabelled_row(items[0][1], len(names))]
+    items = _label_by_looks(spec, items)
     for label, item in items:
         targets = _assign_names(label, item, [n for n in names if n not in placed], names)
         for name, piece in targets:
@@ -327,6 +330,39 @@ def _read_example(spec: WitnessSpec, typed: str, decimal: str) -> dict[str, Read
         missing = [name for name in names if name not in placed]
         raise FormulaReadError("values-missing", 1, "", missing)
     return {name: placed[name] for name in names}
+
+
+def _label_by_looks(
+    spec: WitnessSpec, items: list[tuple[str, SourceText]]
+) -> list[tuple[str, SourceText]]:
+    """Return the items in any order with their names, if all show what they are.
+
+    They do as a camera shows them: ``f/1.8``, ``1/1600 s``, ``ISO 4000``.
+    """
+    if all(label for label, _ in items) or len(items) != len(spec.names()):
+        return items
+    labels = [label or _find_look(spec, item.text) for label, item in items]
+    left = [name for name in spec.names() if name not in labels]
+    if labels.count("") == len(left) == 1:
+        labels[labels.index("")] = left[0]
+    return list(zip(labels, (item for _, item in items), strict=True)) if all(labels) else items
+
+
+def _find_look(spec: WitnessSpec, item: str) -> str:
+    """Return the one name whose value looks like this: as engraved, or with its unit."""
+    if _ENGRAVED.match(item):
+        return "N" if "N" in spec.names() else ""
+    unit = re.search(r"[^\W\d_]+$", item)
+    try:
+        given = listed_unit(unit[0]) if unit else None
+    except FormulaError:
+        return ""
+    fits = [
+        name
+        for name in spec.names()
+        if given and listed_unit(spec.units.get(name, "1")).dimension == given.dimension
+    ]
+    return fits[0] if len(fits) == 1 else ""
 
 
 def _split_unlabelled_row(item: SourceText, count: int) -> list[SourceText]:
@@ -396,6 +432,9 @@ def _iter_labelled_items(
 def _split_point_label(piece: SourceText, names: list[str]) -> tuple[str, SourceText]:
     """Return the name and the rest of ``A(0.5|0)``; a word that names nothing is dropped."""
     match = _FRONT.match(piece.text)
+    plain = _CALLED.match(piece.text)
+    if plain and find_name(plain[1], names):
+        return plain[1], piece.slice(plain.end())
     if match is None or match[1] in FUNCTIONS:
         return "", piece
     typed, keys = name_key(match[1]), [name_key(name) for name in names]

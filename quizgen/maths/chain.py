@@ -40,11 +40,15 @@ MOST_WAYS = 64
 
 
 class ChainStep(msgspec.Struct, frozen=True):
-    """One step: the quantity it defines, its formula, and the unit it is shown in."""
+    """One step: the quantity it defines, its formula, and the unit it is shown in.
+
+    ``forms`` are the formulas, matrices and sets that were put into it, by their names.
+    """
 
     name: str
     expr: Expr
     unit: str = ""
+    forms: tuple[str, ...] = ()
 
 
 class Chain(msgspec.Struct, frozen=True, dict=True):
@@ -255,6 +259,20 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
         plan = self.compile_affected_steps((), exact_system(), changed=own)
         steps = [step for step in plan if step[0] not in own]
         return _run_steps(steps, {**solved, **own}, PRECISION)
+
+    def required_forms(self, steps: Iterable[ChainStep], known: Iterable[str] = ()) -> list[str]:
+        """Return the names of the forms that steps were made from, in the order of the solver.
+
+        Forms behind one in ``known`` do not count.
+        """
+        stop, seen = set(known), set[str]()
+        todo = [name for step in steps for name in step.forms]
+        while todo:
+            current = todo.pop()
+            if current not in seen and current not in stop:
+                seen.add(current)
+                todo += self.form_by_name[current].forms
+        return [step.name for step in self.forms if step.name in seen]
 
     def required_steps(self, name: str, known: Iterable[str] = ()) -> frozenset[str]:
         """Return the names of the steps that ``name`` rests on, itself included.

@@ -15,7 +15,7 @@ Examples
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -89,22 +89,15 @@ class Model:
 
         given = {symbol.name: unit for symbol, unit in self.given.items()}
         resolver = FormResolver(self.free)
-        steps, forms = list[ChainStep](), list[ChainStep]()
+        converted = _ConvertedSteps(self.traps)
         wrong = _group_misconceptions(self.traps)
-        traps = {name: list[ChainStep]() for name in self.traps}
-        form_traps = {name: list[ChainStep]() for name in self.traps}
         for step in self.steps:
-            name = _name_step(step)
-            for trap, replaced in wrong.pop(name, ()):
-                found, is_form = _convert_step(replaced, resolver)
-                (form_traps if is_form else traps)[trap].append(found)
-            found, is_form = _convert_step(step, resolver)
-            (forms if is_form else steps).append(found)
-            if is_form:
-                resolver.remember(name, step.expr)
+            converted.add(step, dict(wrong.pop(_name_step(step), ())), resolver)
         for name, rest in wrong.items():
             what = f"trap {rest[0][0]!r} replaces {name!r}, which is not a step"
             raise BankError(what, rule="QG116", place=("traps", rest[0][0]))
+        steps, forms = converted.steps, converted.forms
+        traps, form_traps = converted.traps, converted.form_traps
         numeric = {name: tuple(found) for name, found in traps.items() if found}
         of_forms = {name: tuple(found) for name, found in form_traps.items() if found}
         others = tuple(_convert_step(step, resolver)[0] for step in self.alternatives)
@@ -122,6 +115,52 @@ class Model:
         return Chain(
             given, tuple(steps), numeric, self.formulas, tuple(forms), of_forms, self.free, others
         )
+
+
+class _ConvertedSteps:
+    """Steps without SymPy, as they are right and as each mistake leaves them.
+
+    A mistake in a formula goes on into every later step that was made from the formula.
+    """
+
+    def __init__(self, traps: Iterable[str]) -> None:
+        self.steps = list[ChainStep]()
+        self.forms = list[ChainStep]()
+        self.traps = {name: list[ChainStep]() for name in traps}
+        self.form_traps = {name: list[ChainStep]() for name in self.traps}
+        self._slipped: dict[str, FormResolver] = {}
+
+    def add(self, step: Step, replaced: Mapping[str, Step], resolver: FormResolver) -> None:
+        """Convert a step, and what mistakes put in its place or make follow for it."""
+        name = _name_step(step)
+        found, is_form = _convert_step(step, resolver)
+        (self.forms if is_form else self.steps).append(found)
+        for trap in self.traps:
+            if trap in replaced or trap in self._slipped:
+                self._add_wrong(trap, step, replaced.get(trap), found, resolver)
+        if is_form:
+            resolver.remember(name, step.expr)
+
+    def _add_wrong(
+        self,
+        trap: str,
+        step: Step,
+        replaced: Step | None,
+        right: ChainStep,
+        resolver: FormResolver,
+    ) -> None:
+        """Convert what a mistake makes of a step; nothing if it stays right, or cannot be had."""
+        taken = replaced or step
+        try:
+            wrong, is_form = _convert_step(taken, self._slipped.get(trap, resolver))
+        except BankError:
+            if replaced:
+                raise
+            return  # nothing follows from what went wrong: no inverse, no solution
+        if replaced or wrong != right:
+            (self.form_traps if is_form else self.traps)[trap].append(wrong)
+        if is_form:
+            self._slipped.setdefault(trap, resolver.copy()).remember(right.name, taken.expr)
 
 
 def _name_step(step: Step) -> str:
@@ -149,7 +188,7 @@ def _convert_step(step: Step, resolver: FormResolver) -> tuple[ChainStep, bool]:
         tree, is_form = resolver.resolve(step.expr)
     except BankError as error:
         raise BankError(f"step {name!r}: {error}", rule="QG131", place=("Step", name)) from error
-    return ChainStep(name, tree, step.unit), is_form
+    return ChainStep(name, tree, step.unit, resolver.find_forms(step.expr)), is_form
 
 
 def _check_forms(

@@ -29,18 +29,18 @@ def scaling_exponent(target: str, quantity: str, steps: Mapping[str, Expr]) -> F
         0 where the quantity cancels; None where no power is the same for all factors.
     """
 
-    def of(expr: Expr) -> Fraction | None:
-        """Return the power of a formula, names replaced by their steps."""
+    def find_exponent(expr: Expr) -> Fraction | None:
+        """Return the power of the quantity in a formula, with steps in place of their names."""
         if isinstance(expr, Num):
             return Fraction(0)
         if isinstance(expr, Sym):
             known = steps.get(expr.name)
-            return Fraction(expr.name == quantity) if known is None else of(known)
-        return _call_exponent(expr)
+            return Fraction(expr.name == quantity) if known is None else find_exponent(known)
+        return find_exponent_of_call(expr)
 
-    def _call_exponent(expr: Call) -> Fraction | None:
-        """Return the power of a call; arguments that are 0 do not count."""
-        powers = [of(arg) for arg in expr.args if not _is_zero(arg)]
+    def find_exponent_of_call(expr: Call) -> Fraction | None:
+        """Return the power of the quantity in a call; arguments that are 0 do not count."""
+        powers = [find_exponent(arg) for arg in expr.args if not _is_zero(arg)]
         found = [power for power in powers if power is not None]
         if len(found) < len(powers):
             return None
@@ -50,7 +50,7 @@ def scaling_exponent(target: str, quantity: str, steps: Mapping[str, Expr]) -> F
                 return found[0] * exponent.value
         return _combine_exponents(expr.op, found)
 
-    return of(Sym(target))
+    return find_exponent(Sym(target))
 
 
 def _combine_exponents(op: str, powers: list[Fraction]) -> Fraction | None:

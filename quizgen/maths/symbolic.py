@@ -55,10 +55,23 @@ class FormResolver:
                 what = f"SymPy cannot work {expression} out: {type(error).__name__}: {error}"
                 raise BankError(f"{what} (compute it before `with evaluate(False)`)") from error
 
+    def copy(self) -> FormResolver:
+        """Return another one that has seen the same steps, to go on from here in a wrong way."""
+        found = FormResolver(tuple(self.free))
+        found.forms.update(self.forms)
+        return found
+
     def remember(self, name: str, expression: sympy.Basic) -> None:
         """Have later steps see a form under its name."""
         with sympy.evaluate(True):
             self.forms[name] = self._put_forms_in(_make_strict(expression))
+
+    def find_forms(self, written: sympy.Basic) -> tuple[str, ...]:
+        """Return the names of the forms of earlier steps that an expression uses."""
+        calls = getattr(written, "atoms", lambda *_: ())(AppliedUndef)
+        names = [call.func.__name__ for call in calls]
+        names += [getattr(symbol, "name", "") for symbol in getattr(written, "free_symbols", ())]
+        return tuple(name for name in self.forms if name in names)
 
     def _put_forms_in(self, written: sympy.Basic) -> sympy.Basic:
         """Return an expression with the forms of earlier steps in place of their names.

@@ -71,6 +71,8 @@ class FilledForm(msgspec.Struct):
     seal: str = ""
     minutes: str | float = ""
     """Time that was taken, where a browser has measured it."""
+    seconds: dict[str, str | float] = {}
+    """Number of a question to the time for which a browser showed it."""
 
     @property
     def is_blank(self) -> bool:

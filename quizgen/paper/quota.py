@@ -15,9 +15,12 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from itertools import chain, pairwise
+from operator import itemgetter
+from pathlib import Path
 from typing import NamedTuple
 
 from quizgen.bank.candidate import Candidate
+from quizgen.bank.compile_cache import CompileCache
 from quizgen.core.errors import BlueprintError
 from quizgen.paper.blueprint import UNLIMITED, Blueprint, split_quota
 from quizgen.paper.code import LARGEST_SEED
@@ -25,10 +28,14 @@ from quizgen.paper.constraints import READING
 
 ROUND = 200
 """Papers of a round: seeds in a row that know of each other."""
-TRIES, PASSES = 60, 6
-"""Beginnings of a paper that are tried, and how often each is gone through."""
+TRIES, PASSES, GOOD = 60, 6, 6
+"""Beginnings of a paper that are tried, how often each is gone through, how many have to do."""
+FEW = 8
+"""Papers that are made again rather than kept."""
 TOO_MANY = 20
 """What a question more than may be shared costs, compared with one that may."""
+
+_KEPT = CompileCache("rounds", list[list[int]])
 
 Places = tuple[tuple[Candidate, ...], ...]
 """Who may stand at each place of a paper."""
@@ -141,7 +148,7 @@ class _Round:
         self, demands: Sequence[Demand], shared: int | None, places: Places, number: int
     ) -> None:
         self.places, self.number = places, number
-        shared = len(places) if shared is None else shared
+        self.shared = len(places) if shared is None else shared
         everyone = {one.name: one for one in chain.from_iterable(places)}
         self.bits = {name: 1 << place for place, name in enumerate(everyone)}
         self.apart = {
@@ -153,91 +160,146 @@ class _Round:
         self.demands = _scale_demands(demands, places)
         self.missed: Counter[str] = Counter()
         self.papers: list[tuple[Candidate, ...]] = []
-        self.papers_with: dict[str, int] = dict.fromkeys(everyone, 0)
-        """Papers so far that hold each template, as bits."""
-        levels = min(shared, len(places)) + 5
-        costs = [3**count * (1 if count <= shared else TOO_MANY) for count in range(levels + 1)]
+        self.papers_with: dict[str, list[int]] = {name: [] for name in everyone}
+        """Papers so far that hold each template."""
+        names = [[one.name for one in place] for place in places]
+        told = repr((self.demands, self.shared, number, names, self.apart))
+        self.sources = told.encode(), Path(__file__).read_bytes()
+        """What the papers follow from."""
+        costs = [3**count * (1 if count <= self.shared else TOO_MANY)
+                 for count in range(len(places) + 2)]  # fmt: skip
         self.steps = [after - before for before, after in pairwise(costs)]
         """What one more question adds for a paper that shares so many already."""
 
     def get_paper(self, place: int) -> tuple[Candidate, ...] | None:
-        """Return a paper of the round; None where no paper was found that meets all demands."""
+        """Return a paper of the round; None where no paper was found that meets all demands.
+
+        A paper far into its round takes the time of all before it, so those are kept.
+        """
+        if place - len(self.papers) >= FEW:
+            for chosen in (_KEPT.get(*self.sources) or [])[len(self.papers) :]:
+                whole = zip(self.places, chosen, strict=True)
+                self._add_paper(tuple(fitting[at] for fitting, at in whole))
+        before = len(self.papers)
         while len(self.papers) <= place:
             paper = self._make_paper()
             if paper is None:
                 return None
-            for one in paper:
-                self.papers_with[one.name] |= 1 << len(self.papers)
-            self.papers.append(paper)
+            self._add_paper(paper)
+        if len(self.papers) - before > FEW:
+            chosen_so_far = [[*map(tuple.index, self.places, paper)] for paper in self.papers]
+            _KEPT.store_compiled(chosen_so_far, *self.sources)
         return self.papers[place]
 
-    def _make_paper(self) -> tuple[Candidate, ...] | None:
-        """Return the next paper: the first try that meets all demands."""
-        for attempt in range(TRIES):
-            paper = self._improve_paper(attempt)
-            if paper:
-                key = next((one.key for one in self.demands if not one.holds(paper)), "")
-                if not key:
-                    return tuple(paper)
-                self.missed[key] += 1
-        return None
+    def _add_paper(self, paper: tuple[Candidate, ...]) -> None:
+        """Take a paper as the next one of the round."""
+        for one in paper:
+            self.papers_with[one.name].append(len(self.papers))
+        self.papers.append(paper)
 
-    def _improve_paper(self, attempt: int) -> list[Candidate]:
+    def _make_paper(self) -> tuple[Candidate, ...] | None:
+        """Return the next paper: the first that meets all demands and shares little, if any does.
+
+        Of the first ``GOOD`` that meet the demands and share too much, that which shares least.
+        """
+        good: list[tuple[int, tuple[Candidate, ...]]] = []
+        for attempt in range(TRIES):
+            draft = _Draft(self, attempt)
+            paper = draft.improve()
+            if not paper:
+                continue
+            key = next((one.key for one in self.demands if not one.holds(paper)), "")
+            if key:
+                self.missed[key] += 1
+                continue
+            good.append((draft.count_excess(), tuple(paper)))
+            if not good[-1][0] or len(good) == GOOD:
+                break
+        return min(good, key=itemgetter(0))[1] if good else None
+
+
+class _Draft:
+    """A paper of a round while its places are filled.
+
+    Parameters
+    ----------
+    papers : _Round
+        The papers before it.
+    attempt : int
+        How many drafts of the same paper there were before.
+    """
+
+    def __init__(self, papers: _Round, attempt: int) -> None:
+        self.round, self.attempt = papers, attempt
+        self.chosen: dict[int, Candidate] = {}
+        self.sums = [0] * len(papers.demands)
+        """What the places filled so far add to each demand."""
+        self.alike = [0] * len(papers.papers)
+        """Questions that each earlier paper shares."""
+
+    def improve(self) -> list[Candidate]:
         """Return a template for each place; none where nothing may stand at one of them.
 
         Again and again each place is filled anew, in any order, until nothing gets better. The
         first time the demands do not count yet; of later attempts it is any template.
         """
-        salt = f"quota/{self.number}/{len(self.papers)}/{attempt}".encode()
-        count = len(self.places)
+        count, papers = len(self.round.places), self.round
+        salt = f"quota/{papers.number}/{len(papers.papers)}/{self.attempt}".encode()
         drawn = hashlib.shake_128(salt).digest(2 * count * (PASSES + 1))
-        paper: dict[int, Candidate] = {}
         for turn in range(PASSES + 1):
             keys = [drawn[2 * n : 2 * n + 2] for n in range(turn * count, (turn + 1) * count)]
-            before = dict(paper)
+            before = dict(self.chosen)
             for place in sorted(range(count), key=keys.__getitem__):
-                paper.pop(place, None)
-                care = 2 if turn else int(not attempt)
-                best = self._choose_template(place, keys[place][1], paper, care)
+                self._put(place, None)
+                care = 2 if turn else int(not self.attempt)
+                best = self._choose_template(place, keys[place][1], care)
                 if best is None:
                     return []
-                paper[place] = best
-            if turn and paper == before:
+                self._put(place, best)
+            if turn and self.chosen == before:
                 break
-        return [paper[place] for place in range(count)]
+        return [self.chosen[place] for place in range(count)]
 
-    def _choose_template(
-        self, place: int, start: int, others: Mapping[int, Candidate], care: int
-    ) -> Candidate | None:
+    def count_excess(self) -> int:
+        """Return how many questions more than may be are shared with all papers together."""
+        return sum(count - self.round.shared for count in self.alike if count > self.round.shared)
+
+    def _put(self, place: int, one: Candidate | None) -> None:
+        """Put a template at a place, or take away what stands there."""
+        step = -1 if one is None else 1
+        if one is None:
+            one = self.chosen.pop(place, None)
+            if one is None:
+                return
+        else:
+            self.chosen[place] = one
+        for paper in self.round.papers_with[one.name]:
+            self.alike[paper] += step
+        self.sums = [
+            told + step * demand.amounts[place][one.name]
+            for told, demand in zip(self.sums, self.round.demands, strict=True)
+        ]
+
+    def _choose_template(self, place: int, start: int, care: int) -> Candidate | None:
         """Return who misses the demands least and then shares least, from ``start`` on.
 
         Parameters
         ----------
         place, start : int
-        others : mapping of int to Candidate
-            Who stands at other places.
         care : int
             0 for anyone that may stand there, 1 for what is shared alone, 2 for both.
         """
+        papers, alike, steps = self.round, self.alike, self.round.steps
         taken = 0
-        alike = [(1 << len(self.papers)) - 1] + [0] * (len(self.steps) - 1)
-        """Papers that share so many questions or more, as bits."""
-        for one in others.values():
-            taken |= self.bits[one.name]
-            earlier = self.papers_with[one.name]
-            for count in range(len(alike) - 1, 0, -1):
-                alike[count] |= earlier & alike[count - 1]
-        rises = [
-            (after - before, papers)
-            for before, after, papers in zip([0, *self.steps], self.steps, alike, strict=False)
-            if papers and care
-        ]
-        room = [one.measure_room(place, others) for one in self.demands] if care > 1 else []
-        fitting = self.places[place]
+        for one in self.chosen.values():
+            taken |= papers.bits[one.name]
+        demands = zip(papers.demands, self.sums, strict=True) if care > 1 else ()
+        room = [(one.amounts[place], one.least - told, one.most - told) for one, told in demands]
+        fitting = papers.places[place]
         best, least = None, (0, 0)
         for n in range(len(fitting)):
             one = fitting[(n + start) % len(fitting)]
-            if self.apart[one.name] & taken:
+            if papers.apart[one.name] & taken:
                 continue
             missed = 0
             for amounts, low, high in room:
@@ -248,8 +310,7 @@ class _Round:
                     missed += amount - high
             if best and missed > least[0]:
                 continue
-            earlier = self.papers_with[one.name]
-            cost = sum([rise * (earlier & papers).bit_count() for rise, papers in rises])
+            cost = sum([steps[alike[n]] for n in papers.papers_with[one.name]]) if care else 0
             if best is None or (missed, cost) < least:
                 best, least = one, (missed, cost)
         return best
@@ -280,22 +341,21 @@ class _ScaledDemand(NamedTuple):
         told = zip(self.amounts, paper, strict=True)
         return self.least <= sum(place[one.name] for place, one in told) <= self.most
 
-    def measure_room(
-        self, place: int, others: Mapping[int, Candidate]
-    ) -> tuple[Mapping[str, int], int, int]:
-        """Return what each candidate for a place adds, and what it should, least and most."""
-        told = sum([self.amounts[at][one.name] for at, one in others.items()])
-        return self.amounts[place], self.least - told, self.most - told
+    def holds_always(self) -> bool:
+        """Return whether it holds whatever stands at the places."""
+        low = sum(min(place.values(), default=0) for place in self.amounts)
+        high = sum(max(place.values(), default=0) for place in self.amounts)
+        return self.least <= low and high <= self.most
 
 
 def _scale_demands(demands: Sequence[Demand], places: Places) -> list[_ScaledDemand]:
-    """Return the demands in one unit, so that what is missed of them can be added."""
+    """Return the demands that may be missed, in one unit, so that what is missed can be added."""
     found = [
         [{one.name: demand.measure(one) for one in place} for place in places] for demand in demands
     ]
     parts = (amount for told in found for place in told for amount in place.values())
     unit = math.lcm(1, *(amount.denominator for amount in parts))
-    return [
+    scaled = (
         _ScaledDemand(
             demand.key,
             tuple({name: int(amount * unit) for name, amount in place.items()} for place in told),
@@ -303,7 +363,8 @@ def _scale_demands(demands: Sequence[Demand], places: Places) -> list[_ScaledDem
             math.floor(demand.most * unit),
         )
         for demand, told in zip(demands, found, strict=True)
-    ]
+    )
+    return [one for one in scaled if not one.holds_always()]
 
 
 def _explain_none(blueprint: Blueprint, places: Places, missed: Counter[str]) -> BlueprintError:

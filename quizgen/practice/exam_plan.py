@@ -244,17 +244,13 @@ class ExamPlan:
         return np.where(self._allowed, rates, -np.inf)
 
     def round_places(self, model: AbilityModel) -> list[int]:
-        """Return the templates of exam questions that were not asked lately.
-
-        One template of a question is enough.
-        """
+        """Return the templates of exam questions that were not asked lately."""
         since = model.clock - ROUND_AGAIN
         return [
             place
             for _, places in self._slots
-            if all(model.seen[place] < since for place in places)
             for place in places
-            if self._allowed[place]
+            if self._allowed[place] and model.seen[place] < since
         ]
 
 

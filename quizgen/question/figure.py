@@ -101,12 +101,14 @@ def _convert_mark(value: float, factor: float, unit: str) -> float:
 
 
 def _evaluate_parameter(drawn: Variant, source: Source) -> Any:
-    """Return a parameter: a number, a drawn phrase, a formula's value, or lists of these."""
+    """Return a parameter: a number, drawn phrases, a formula's value, or lists of these."""
     if isinstance(source, tuple):
         return [_evaluate_parameter(drawn, one) for one in source]
     if not isinstance(source, str):
         return source
     if source in drawn.words:
         return drawn.words[source]
+    if texts := drawn.text_list(source):
+        return texts
     value: Any = drawn.evaluate(source)
     return [*map(to_float, value)] if isinstance(value, tuple) else to_float(value)

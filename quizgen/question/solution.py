@@ -19,7 +19,7 @@ from quizgen.figures import FieldPicture
 from quizgen.grading.spec import AnySpec, NumericSpec, ScalarSpec, VectorSpec
 from quizgen.kinds import KINDS
 from quizgen.kinds.asking import as_student_writes
-from quizgen.kinds.contract import AskedPart, DerivedStep, SchemeRow, asked_quantities
+from quizgen.kinds.contract import AskedPart, DerivedStep, SchemeRow, asked_form, asked_quantities
 from quizgen.kinds.grade import show_key
 from quizgen.locale import format_amount, translate
 from quizgen.maths.chain import ChainStep
@@ -203,7 +203,7 @@ def solve_part(filler: Interpolator, index: int, built: AskedPart[Any]) -> PartS
         lines=(
             *(
                 _give_points(solution_step(filler, step), drawn.template.rules.part[index].scheme)
-                for step in (*drawn.steps_of_part(index), *drawn.sampler.parts[index].form_steps)
+                for step in _iter_steps(filler, index)
             ),
             *(_build_derived_step(filler, step) for step in built.derived),
         ),
@@ -223,6 +223,23 @@ def solve_part(filler: Interpolator, index: int, built: AskedPart[Any]) -> PartS
         scheme=tuple(_build_scheme_line(filler, row) for row in built.scheme),
         most=_find_most_points(drawn, index, built),
     )
+
+
+def _iter_steps(filler: Interpolator, index: int) -> Iterator[ChainStep]:
+    """Yield the steps to a part's answer, each after the formulas that it was made from.
+
+    A formula is a step of its own where the words have a sentence for it and no part before asks
+    for it: one that stands in the question needs none.
+    """
+    drawn = filler.drawn
+    chain, rules = drawn.template.chain, drawn.template.rules.part
+    told, shown = {asked_form(part.answer) for part in rules[:index]}, rules[index].show
+    for step in (*drawn.steps_of_part(index), *drawn.sampler.parts[index].form_steps):
+        for name in chain.required_forms([step], told):
+            told.add(name)
+            if (shown is None or name in shown) and filler.text.sentence("steps", name) is not None:
+                yield chain.form_by_name[name]
+        yield step
 
 
 def _give_points(step: SolutionStep, scheme: Mapping[str, Scalar]) -> SolutionStep:

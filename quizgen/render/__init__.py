@@ -20,7 +20,10 @@ KINDS = ("exam", "solutions")
 """What a file shows: the questions alone, or with worked solutions."""
 
 RENDERERS = ("html", "pdf")
-"""The formats there are."""
+"""The formats of papers there are."""
+
+SHEET_FORMATS = ("html", "pdf")
+"""Those of the formula sheet."""
 
 
 class Renderer(Protocol):
@@ -72,7 +75,7 @@ def render_paper(paper: Paper, kind: str, output: str) -> bytes:
 
 
 def render_sheet(sheet: FormulaSheet, output: str) -> bytes:
-    """Return the file of a formula sheet in one of ``RENDERERS``.
+    """Return the file of a formula sheet in one of ``SHEET_FORMATS``.
 
     Raises
     ------
@@ -81,7 +84,7 @@ def render_sheet(sheet: FormulaSheet, output: str) -> bytes:
     RenderError
         If the output cannot be made.
     """
-    match require_one_of("format", output, RENDERERS):
+    match require_one_of("format", output, SHEET_FORMATS):
         case "pdf":
             from quizgen.render import sheet_pdf
 

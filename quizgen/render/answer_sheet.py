@@ -23,8 +23,8 @@ from quizgen.render.typst_document import (
     typst_literal,
 )
 
-VERSION = 1
-"""Of the layout."""
+VERSION, PAPER_VERSION = 1, 2
+"""Of the layouts: the compact sheet, and a whole paper."""
 SIZE = (210.0, 297.0)
 MARK, INSET = 8.5, 7.0
 """Side of a corner mark, and its distance from the edges."""
@@ -67,7 +67,8 @@ class SheetField(msgspec.Struct, frozen=True, omit_defaults=True):
     part : str
         As it is printed.
     kind : str
-        ``box`` to be ticked, ``line`` to be written on.
+        ``box`` to be ticked, ``line`` to be written on; on a whole paper also ``room`` to work in,
+        and ``points`` for what the part earns.
     x, y, w, h : float
     option : str
         What a box that is ticked says, as it is typed: ``A``, ``true``, ``A:2``.
@@ -132,8 +133,10 @@ def make_answer_sheet(paper: Paper, code_of: Callable[[int], str]) -> tuple[byte
         f"#show: sheet.with(title: {typst_literal(paper.title(lang))}, lang: {typst_literal(lang)})"
     )
     files = document_files("answer-sheet.typ", "\n".join([opening, *body]) + "\n")
-    files |= {f"code-{page}.svg": _draw_code(text) for page, text in enumerate(codes, 1)}
-    places = SheetPlaces(VERSION, pages, SIZE, tuple(_iter_mark_places()), CODE, tuple(fields))
+    files |= {f"code-{page}.svg": draw_page_code(text) for page, text in enumerate(codes, 1)}
+    places = SheetPlaces(
+        VERSION, pages, SIZE, tuple(iter_mark_places(INSET, MARK)), CODE, tuple(fields)
+    )
     return compile_pdf(files), places
 
 
@@ -227,7 +230,7 @@ def _iter_head(paper: Paper, page: int, pages: int, code: str) -> Iterator[str]:
     """Yield the Typst source of what stands above the rows of a page, and of its marks."""
     lang = paper.langs[0]
     words = load_words(lang, "classes")["sheet"]
-    for rows, (x, y, side) in zip(MARKS, _iter_mark_places(), strict=True):
+    for rows, (x, y, side) in zip(MARKS, iter_mark_places(INSET, MARK), strict=True):
         shown = ", ".join(typst_literal(bits) for bits in rows)
         yield f"#corner({x}, {y}, {side}, ({shown}))"
     x, y, side = CODE
@@ -244,11 +247,11 @@ def _iter_head(paper: Paper, page: int, pages: int, code: str) -> Iterator[str]:
     yield f"#at(22, 28, block(width: 138mm, text(9pt, {_typeset_text(words['rules'])})))"
 
 
-def _iter_mark_places() -> Iterator[tuple[float, float, float]]:
+def iter_mark_places(inset: float, side: float) -> Iterator[tuple[float, float, float]]:
     """Yield place and side of the corner marks, clockwise from the upper left."""
-    right, low = SIZE[0] - INSET - MARK, SIZE[1] - INSET - MARK
-    for x, y in ((INSET, INSET), (right, INSET), (right, low), (INSET, low)):
-        yield x, y, MARK
+    right, low = SIZE[0] - inset - side, SIZE[1] - inset - side
+    for x, y in ((inset, inset), (right, inset), (right, low), (inset, low)):
+        yield x, y, side
 
 
 def _typeset_word(x: float, y: float, text: str, *, bold: bool = False) -> str:
@@ -262,7 +265,7 @@ def _typeset_text(text: str) -> str:
     return typst_literal(replace_unprintable(text))
 
 
-def _draw_code(text: str) -> bytes:
+def draw_page_code(text: str) -> bytes:
     """Return a QR code as SVG, without a border: the page around it is white."""
     import segno
 

@@ -80,7 +80,7 @@ def bangla_uri(weight: str = "Regular") -> str:
 
 def bangla_faces(langs: Iterable[str], text: str = "") -> dict[int, str]:
     """Return the Bangla fonts that a page needs for its languages or its text, by weight."""
-    if not (set(langs) & set(languages_in_script("Beng")) or any(map(_is_bangla, text))):
+    if not (set(langs) & set(languages_in_script("Beng")) or any(map(_is_bangla, set(text)))):
         return {}
     return {400: bangla_uri(), 700: bangla_uri("Bold")}
 

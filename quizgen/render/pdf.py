@@ -54,15 +54,12 @@ MOST_SOLVED_WIDTH = 80
 MOST_UNDER_A_COVER = 8
 """Questions of a paper whose first questions stand on the page of its cover."""
 
-SURE_TO_FIT = 80
-"""Characters of a typed formula that is no wider than the page: none takes more than 5.5 pt."""
-
 
 class _TypstPaper:
     """Typst source of one paper or its solutions, and the pictures that it refers to."""
 
-    def __init__(self, paper: Paper, kind: str) -> None:
-        self.paper, self.kind, self.langs = paper, kind, paper.langs
+    def __init__(self, paper: Paper, kind: str, *, scanned: bool = False) -> None:
+        self.paper, self.kind, self.langs, self.scanned = paper, kind, paper.langs, scanned
         self.main = paper.langs[0]
         self.pictures: dict[str, bytes] = {}
 
@@ -72,6 +69,8 @@ class _TypstPaper:
         body = "\n\n".join(self._typeset_question(item) for item in self.paper.items)
         if self.kind == "exam":
             body += "\n#v(1fr)"
+        if self.scanned:
+            body += '\n#spot("end", 0mm, 0mm)'
         return f"{self._typeset_opening()}\n{cover}\n{body}\n"
 
     def _typeset_opening(self) -> str:
@@ -305,6 +304,9 @@ class _TypstPaper:
                 continue
             empty = [field.drawing.figure for field in one.fields if field.drawing]
             drawing = self._typeset_picture(one.first.field.id, empty, BOARD_SCALE)
+            if drawing and self.scanned:
+                size = (side * BOARD_SCALE for side in (empty[0].width_pt, empty[0].height_pt))
+                drawing = f"board({', '.join(f'{side:.2f}' for side in size)}, {drawing})"
             room = typeset_ruled_lines(one, hold=held) or typeset_room(
                 count_rows(one), one.first.points, hold=held
             )
@@ -374,9 +376,12 @@ def _format_holder(paper: Paper) -> str:
     return " · ".join(map(replace_unprintable, filter(None, known)))
 
 
-def typst_sources(paper: Paper, kind: str) -> dict[str, bytes]:
-    """Return the Typst files of a paper and its pictures, by file name."""
-    sheet = _TypstPaper(paper, kind)
+def typst_sources(paper: Paper, kind: str, *, scanned: bool = False) -> dict[str, bytes]:
+    """Return the Typst files of a paper and its pictures, by file name.
+
+    With ``scanned``, fields to draw in say where they stand, and so does the end.
+    """
+    sheet = _TypstPaper(paper, kind, scanned=scanned)
     return {**document_files("paper.typ", sheet.source()), **sheet.pictures}
 
 

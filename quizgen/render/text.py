@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from functools import singledispatch
 from itertools import chain
@@ -80,10 +81,17 @@ def _format_table(part: markdown.TableBlock) -> Iterable[str]:
     return [" | ".join(map(inlines_to_plain_text, row)) for row in (part.head, *part.rows)]
 
 
+def _shorten_lists(identity: str) -> str:
+    """Return what was drawn with the first three and the last value of long lists."""
+    return re.sub(r"\[((?:[^];]*; ){3})(?:[^];]*; ){3,}([^]]*)\]", r"[\1…; \2]", identity)
+
+
 def format_question(item: PaperItem, *, solved: bool = True) -> str:
     """Return a question as text; ``solved`` adds its key and solution."""
     question, key = item.questions[0], item.keys[0]
-    head = f"{question.template}: {question.title}  [{key.identity}]" if solved else question.title
+    head = question.title
+    if solved:
+        head = f"{question.template}: {head}  [{_shorten_lists(key.identity)}]"
     lines = [head, *blocks_to_plain_text(question.stem)]
     told = describe_question_figure(key.draw, question.lang, quiz=True)
     lines += [f"   [{told}]"] if told else []

@@ -93,9 +93,10 @@ def _format_field(part: PlacedField, lang: str) -> str:
     label = f'#text(0.85em, fill: rgb("#4b5563"), {typst_literal(f"({part.label})")});#h(0.25em);'
     label = label if part.label else ""
     if not part.options:
-        return f"#box[{label}{_RULED}];"
+        return f"#box[{label}#blank({typst_literal(part.label)});];"
     boxed = [
-        f"#box[{_BOX}#h(0.3em);{_format_mark(mark)}{inlines_to_typst(said, lang)}];"
+        f"#box[#option({typst_literal(part.label)}, {typst_literal(mark)});#h(0.3em);"
+        f"{_format_mark(mark)}{inlines_to_typst(said, lang)}];"
         for mark, said in part.options
     ]
     first, *rest = boxed
@@ -105,12 +106,6 @@ def _format_field(part: PlacedField, lang: str) -> str:
 def _format_mark(mark: str) -> str:
     """Return the letter of an option in Typst; nothing where its words are its mark."""
     return f"#strong({typst_literal(mark)}) " if len(mark) == 1 else ""
-
-
-_RULED = (
-    '#box(width: 6.5em, height: 1.5em, baseline: 0.25em, stroke: (bottom: 0.5pt + rgb("#555")));'
-)
-_BOX = '#box(width: 0.75em, height: 0.75em, stroke: 0.5pt + rgb("#555"));'
 
 
 def typst_passage(body: str) -> str:
@@ -309,6 +304,25 @@ def compile_pdf(sources: Mapping[str, bytes]) -> bytes:
     if warnings:
         raise RenderError(f"PDF: {warnings[0]}")
     return bytes(data)
+
+
+def query_metadata(sources: Mapping[str, bytes], label: str) -> list[list[Any]]:
+    """Return what a document says of itself in the metadata with a label, in its order.
+
+    Raises
+    ------
+    RenderError
+        If Typst refuses the document.
+    """
+    import typst
+
+    _check_not_forked()
+    world: Any = dict(sources)
+    try:
+        fonts: Any = _load_font_collection()
+        return json.loads(typst.query(world, f"<{label}>", field="value", font_paths=fonts))
+    except typst.TypstError as error:
+        raise RenderError(f"PDF: {error}") from error
 
 
 def _check_not_forked() -> None:

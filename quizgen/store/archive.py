@@ -111,6 +111,7 @@ class ArchivedExam(StrictStruct, frozen=True):
     flags: Annotated[list[Part], msgspec.Meta(max_length=MOST_PARTS)]
     practice: bool = False
     spent: dict[Part, Annotated[float, msgspec.Meta(ge=0)]] = {}
+    decimal: Literal["auto", "point", "comma"] = "auto"
     paper: Annotated[str, msgspec.Meta(pattern="^[0-9a-f]{64}$")] | None = None
     """Its id, once it was handed in. The paper itself is HTML: nobody's file is believed that."""
 

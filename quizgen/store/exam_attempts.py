@@ -39,7 +39,7 @@ class ExamStore:
     def __init__(self, database: Database, clock: Clock) -> None:
         self.database, self.clock = database, clock
 
-    def begin(
+    def begin(  # noqa: PLR0913 - what an exam is begun with
         self,
         learner: int,
         code: str,
@@ -48,6 +48,7 @@ class ExamStore:
         pauses: bool,
         paper: Packed | None = None,
         practice: bool = False,
+        decimal: str = "auto",
     ) -> ExamRecord | None:
         """Return a new exam, or the open one of this learner with the same numbers.
 
@@ -62,6 +63,8 @@ class ExamStore:
             What it shows.
         practice : bool
             Begin it also where its key was shown to the learner.
+        decimal : str
+            The decimal sign by which its answers are read.
 
         Returns
         -------
@@ -81,7 +84,7 @@ class ExamStore:
             if paper:
                 insert_paper(connection, paper)
             made = ExamRecord(secrets.token_urlsafe(12), learner, code, now, limit, pauses,
-                           paper=name, practice=bool(known))  # fmt: skip
+                           paper=name, practice=bool(known), decimal=decimal)  # fmt: skip
             connection.execute(insert(SITTING).values(msgspec.to_builtins(made)))
             return made
 
@@ -181,6 +184,13 @@ class ExamStore:
         with self.database.writing(sitting.learner) as connection:
             if not connection.execute(delete(FLAG).where(*place)).rowcount:
                 connection.execute(insert(FLAG).values(sitting=sitting.id, number=number))
+
+    def declare_decimal(self, sitting: ExamRecord, decimal: str) -> None:
+        """Read all answers of an exam by a decimal sign, until it is handed in."""
+        with self.database.writing(sitting.learner) as connection:
+            known = _find_sitting(connection, sitting.learner, sitting.id)
+            if known is not None and known.handed is None:
+                _update_sitting(connection, sitting, decimal=decimal)
 
     def set_pause(self, sitting: ExamRecord, *, on: bool) -> None:
         """Begin or end a pause; nothing happens where pauses are not allowed."""

@@ -178,6 +178,8 @@ class ExamRecord(msgspec.Struct, frozen=True):
         Whether it is counted in what the learner has done.
     spent : mapping
         Number of a question to the seconds for which it was on the screen.
+    decimal : str
+        The decimal sign by which its answers are read: ``auto``, ``point`` or ``comma``.
     """
 
     id: str
@@ -194,6 +196,7 @@ class ExamRecord(msgspec.Struct, frozen=True):
     practice: bool = False
     counted: bool = False
     spent: dict[str, float] = {}
+    decimal: str = "auto"
 
     @property
     def ends(self) -> float | None:

@@ -107,6 +107,7 @@ SITTING = Table(
     Column("counted", Boolean, nullable=False, server_default=text("false")),
     Column("marks", JSON, nullable=False),
     Column("spent", JSON, nullable=False, server_default=text("'{}'")),
+    Column("decimal", String(5), nullable=False, server_default="auto"),
     Index("sitting_of", "learner", "begun"),
 )
 """An exam that somebody sits, see ``rows.Sitting``."""

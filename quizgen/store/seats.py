@@ -19,7 +19,7 @@ from quizgen.store.clock import Clock
 from quizgen.store.database import Database, upsert
 from quizgen.store.exam_attempts import GRACE, insert_paper
 from quizgen.store.records import ExamRecord, Learner, Packed
-from quizgen.store.schema import ANSWER, LEARNER, PAPER, SEAT, SERVER, SESSION, SITTING
+from quizgen.store.schema import ANSWER, LEARNER, PAPER, SEAT, SESSION, SITTING
 
 NAMES = "seat "
 """Before the id of a student in the names of learners, which no account can be called."""
@@ -287,17 +287,6 @@ class SeatStore:
         with self.database.writing() as connection:
             for learner, at in handed.items():
                 _update_seat(connection, learner, stored=at)
-
-    def find_shared_value(self, name: str) -> str:
-        """Return what all servers of this database know under a name; "" if nothing."""
-        query = select(SERVER.c.value).where(SERVER.c.name == name)
-        with self.database.reading() as connection:
-            return str(connection.execute(query).scalar() or "")
-
-    def share(self, name: str, value: str) -> None:
-        """Replace what all servers of this database know under a name."""
-        with self.database.writing() as connection:
-            upsert(connection, SERVER, {"name": name, "value": value}, ["name"], ["value"])
 
     def _change(self, learners: Sequence[int], work: Any) -> None:
         """Do something with the seats of learners, all or nothing."""

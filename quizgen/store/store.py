@@ -19,8 +19,9 @@ from quizgen.store.exam_attempts import ExamStore
 from quizgen.store.paper_stock import PaperStock
 from quizgen.store.records import AttemptRecord, Learner, OutcomeRecord, QuestionRef, row_to_record
 from quizgen.store.review_cards import ReviewCardStore
-from quizgen.store.schema import ATTEMPT, LEARNER, SEEN, SERVER
+from quizgen.store.schema import ATTEMPT, LEARNER, SEEN
 from quizgen.store.seats import SeatStore
+from quizgen.store.shared_values import SharedValues
 
 
 class Store:
@@ -41,6 +42,8 @@ class Store:
         self.database = Database(address)
         self._learners: dict[str, Learner] = {}
         self._one = threading.Lock()
+        self.shared = SharedValues(self.database)
+        """What all servers of the database have in common."""
         self.clock = self._begin_clock()
         """The time of exams."""
         self.sittings = ExamStore(self.database, self.clock)
@@ -76,19 +79,9 @@ class Store:
         began, name = Clock(), since_boot()
         if not name:
             return began
-        kept = self.shared_value(name, " ".join(map(repr, began.anchor)))
+        kept = self.shared.settle(name, " ".join(map(repr, began.anchor)))
         at, then = map(float, kept.split())
         return Clock((at, then))
-
-    def shared_value(self, name: str, value: str) -> str:
-        """Return the value that all servers of this database share under a name.
-
-        The first server's ``value`` is stored, and returned to the others.
-        """
-        query = select(SERVER.c.value).where(SERVER.c.name == name)
-        with self.database.writing() as connection:
-            upsert(connection, SERVER, {"name": name, "value": value}, ["name"])
-            return str(connection.execute(query).scalar_one())
 
     def cached_learner(self, name: str = ALONE) -> Learner | None:
         """Return a learner who has asked before, without the database; None if it must be asked."""

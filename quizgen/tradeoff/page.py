@@ -14,11 +14,11 @@ import msgspec
 
 from quizgen.core.files import write_all
 from quizgen.figures import Figure, plot_figure
-from quizgen.figures.inks import write_theme_css
 from quizgen.locale import get_language, list_languages, localise_numbers
 from quizgen.maths.notation import pretty
 from quizgen.render.fonts import bangla_uri
 from quizgen.render.layouts import jinja_environment
+from quizgen.render.page_look import write_page_look
 from quizgen.tradeoff.formulas import FORMULAS
 from quizgen.tradeoff.questions import Cost
 from quizgen.tradeoff.report import TradeoffReport
@@ -56,8 +56,7 @@ def whole_page(report: TradeoffReport, command: str) -> str:
     return _build_environment().get_template("page.html.j2").render(
         languages=known, title=words("en")["page"]["title"], style=tradeoff_css(), script=script(),
         bodies={lang: render_tradeoff_fragment(report, command, lang) for lang in known},
-        bangla=[lang for lang, one in known.items() if one.script == "Beng"],
-        faces={400: bangla_uri(), 700: bangla_uri("Bold")}, theme=write_theme_css(),
+        faces={400: bangla_uri(), 700: bangla_uri("Bold")}, look=write_page_look(),
     )  # fmt: skip
 
 

@@ -16,6 +16,7 @@ from starlette.datastructures import Headers, MutableHeaders, QueryParams
 from starlette.responses import JSONResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from quizgen.classes.safe_exam_browser import FILE as SETTINGS_FILE
 from quizgen.store import Learner, Seat
 from quizgen.store.accounts import hash_token
 from quizgen.web.event_log import find_cause
@@ -32,6 +33,8 @@ LONGEST_CHECK = 5.0
 SUPERVISION = "/live"
 """Before the pages of those who watch an exam."""
 SIGN_IN, INVITED = "/sign-in", "/invited"
+SETTINGS = f"/{SETTINGS_FILE}"
+"""Of Safe Exam Browser, for a class that sits its exam in it."""
 """What somebody may see who has not signed in."""
 
 
@@ -51,7 +54,7 @@ class AuthMiddleware:
 
     def __init__(self, app: ASGIApp, site: ServerState) -> None:
         self.app, self.site = app, site
-        self._open = {SIGN_IN, INVITED, *(["/"] if site.room else [])}
+        self._open = {SIGN_IN, INVITED, *(["/", SETTINGS] if site.room else [])}
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer a request that is not admitted, or pass it to the application."""

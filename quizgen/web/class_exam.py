@@ -18,14 +18,15 @@ from starlette.responses import FileResponse, Response
 from starlette.routing import Route
 from starlette.types import ASGIApp, Receive, Scope, Send
 
-from quizgen.classes.exam_details import BrowserExam
 from quizgen.classes.gradebook import FOLDER as RESULTS
+from quizgen.classes.safe_exam_browser import END
+from quizgen.classes.safe_exam_browser import FILE as SETTINGS_FILE
 from quizgen.classes.seats import normalise_entry_code
 from quizgen.classes.student_reports import REPORTS
 from quizgen.locale import FIRST
 from quizgen.store import Seat
-from quizgen.web.auth import INVITED, SIGN_IN, SUPERVISION, set_session_cookie
-from quizgen.web.class_room import ClassRoom
+from quizgen.web.auth import INVITED, SETTINGS, SIGN_IN, SUPERVISION, set_session_cookie
+from quizgen.web.class_room import CAME_IN, ClassRoom
 from quizgen.web.event_log import log_event
 from quizgen.web.forms import field_text, read_form
 from quizgen.web.security import OPEN, plain_error
@@ -33,12 +34,24 @@ from quizgen.web.state import ServerState
 from quizgen.web.views import page_response, redirect, request_language
 
 SEAT = "/seat"
-WATCHED = (SUPERVISION, SIGN_IN, INVITED, "/sign-out", "/account", "/people", "/settings", OPEN)
-"""Pages of those who watch, for which no browser is prescribed."""
+WATCHED = (
+    SETTINGS,
+    SUPERVISION,
+    SIGN_IN,
+    INVITED,
+    "/sign-out",
+    "/account",
+    "/people",
+    "/settings",
+    OPEN,
+)
+"""Pages of those who watch, and what brings the prescribed browser: no browser is refused them."""
 CONFIG_KEY, EXAM_KEY = "x-safeexambrowser-configkeyhash", "x-safeexambrowser-requesthash"
 
 
-def is_prescribed_browser(address: str, headers: Headers, rules: BrowserExam) -> bool:
+def is_prescribed_browser(
+    address: str, headers: Headers, config_keys: Sequence[str], exam_keys: Sequence[str]
+) -> bool:
     """Return whether a request comes from Safe Exam Browser with one of the keys, if there are any.
 
     It sends the SHA-256 of the whole address and its key, in hexadecimal digits.
@@ -48,10 +61,11 @@ def is_prescribed_browser(address: str, headers: Headers, rules: BrowserExam) ->
     address : str
         As the browser has asked for it, without what stands behind ``#``.
     headers : Headers
-    rules : BrowserExam
+    config_keys, exam_keys : sequence of str
+        Of settings, and of settings and program; if there are both, one of each must be proven.
     """
-    return _is_proven(address, headers.get(CONFIG_KEY, ""), rules.config_keys) and _is_proven(
-        address, headers.get(EXAM_KEY, ""), rules.exam_keys
+    return _is_proven(address, headers.get(CONFIG_KEY, ""), config_keys) and _is_proven(
+        address, headers.get(EXAM_KEY, ""), exam_keys
     )
 
 
@@ -78,14 +92,23 @@ class ClassExamMiddleware:
         """Answer a refused request, or pass it on."""
         if scope["type"] == "http" and not scope["path"].startswith(WATCHED):
             request = Request(scope)
-            rules = self.room.exam.browser
-            if not is_prescribed_browser(_build_address(scope), request.headers, rules):
-                await plain_error("kiosk", HTTPStatus.FORBIDDEN)(scope, receive, send)
+            keys = self.room.config_keys, self.room.exam.browser.exam_keys
+            if not is_prescribed_browser(_build_address(scope), request.headers, *keys):
+                await self._refuse(request)(scope, receive, send)
                 return
             seat: Seat | None = scope["state"].get("seat")
             if seat is not None and seat.student in self.room.students:
-                self.room.note_seen(seat.student, _get_client_address(request))
+                address = _get_client_address(request)
+                if self.room.note_seen(seat.student, address):
+                    await run_in_threadpool(self.room.warn, seat.student, "address", address)
         await self.app(scope, receive, send)
+
+    def _refuse(self, request: Request) -> ASGIApp:
+        """Return what another browser is answered: where the settings are, if they are here."""
+        is_here = self.room.exam.browser.safe_exam_browser
+        if is_here and request.method == "GET" and request.scope["path"] == "/":
+            return _show_way_in
+        return plain_error("kiosk", HTTPStatus.FORBIDDEN)
 
 
 def _build_address(scope: Scope) -> str:
@@ -99,6 +122,32 @@ def _build_address(scope: Scope) -> str:
 def _get_client_address(request: Request) -> str:
     """Return the IP address that a request came from; empty if it is unknown."""
     return request.client.host if request.client else ""
+
+
+async def _show_way_in(scope: Scope, receive: Receive, send: Send) -> None:
+    """Send the page that opens Safe Exam Browser with the settings of this exam."""
+    request = Request(scope)
+    room, lang = get_room(request), request_language(request)
+    scheme = "sebs" if scope["scheme"] == "https" else "seb"
+    answer = page_response(
+        request, "class_kiosk.html.j2", HTTPStatus.FORBIDDEN, title=_find_title(room, lang),
+        link=f"{scheme}://{request.headers.get('host', '')}{SETTINGS}", file=SETTINGS,
+    )  # fmt: skip
+    await answer(scope, receive, send)
+
+
+async def send_settings(request: Request) -> Response:
+    """Send the settings of Safe Exam Browser; they hold nothing that students may not know."""
+    room = get_room(request)
+    if not room.exam.browser.safe_exam_browser:
+        raise HTTPException(404)
+    return FileResponse(room.settings_file, media_type="application/seb", filename=SETTINGS_FILE)
+
+
+async def leave_browser(request: Request) -> Response:
+    """Redirect from the address at which Safe Exam Browser ends: another browser stays here."""
+    del request
+    return redirect(SEAT)
 
 
 def get_room(request: Request) -> ClassRoom:
@@ -163,9 +212,9 @@ async def enter(request: Request) -> Response:
     student, learner, issue, used = found
     if used is None and await run_in_threadpool(room.store.seats.use_code, learner, issue):
         log_event("code used", learner=learner, address=address)
-        await run_in_threadpool(room.record, student, student, "came in", address)
+        await run_in_threadpool(room.record, student, student, CAME_IN, address)
     elif not await run_in_threadpool(_may_look_again, room, learner):
-        room.presence[student].warn(room.now(), "reused", address)
+        await run_in_threadpool(room.warn, student, "reused", address)
         log_event("code used again", learner=learner, address=address)
         return _render_entrance(request, 403, "used", typed)
     token = await run_in_threadpool(room.store.accounts.start_session, learner)
@@ -256,7 +305,9 @@ async def send_report(request: Request) -> Response:
 ROUTES = [
     Route("/", show_entrance),
     Route("/", enter, methods=["POST"]),
+    Route(SETTINGS, send_settings),
     Route(SEAT, show_seat),
+    Route(END, leave_browser),
     Route(f"{SEAT}/begin", begin_exam, methods=["POST"]),
     Route(f"{SEAT}/state", tell_state),
     Route(f"{SEAT}/report", send_report),

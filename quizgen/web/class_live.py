@@ -148,12 +148,12 @@ async def change_room(request: Request) -> Response:
 
 
 def _change_exam(room: ClassRoom, what: str) -> None:
-    """Change what holds for those, too, who have not begun."""
-    seats = room.store.seats
+    """Open, pause, resume or release the exam for the whole class, also for who comes later."""
+    shared = room.store.shared
     if what == "open":
-        seats.share(OPENED, str(room.now()))
+        shared.replace(OPENED, str(room.now()))
     elif what in {"pause", "go-on"}:
-        seats.share(HELD, "1" if what == "pause" else "")
+        shared.replace(HELD, "1" if what == "pause" else "")
     else:
         room.release(on=what == "release")
 

@@ -1,7 +1,7 @@
 """The room in which a class sits its exam: who is in it, the time of each, what is handed in.
 
-Everything that matters stands in the database or in the folder of the class; only who was seen when
-is kept in memory. So a server that was killed goes on where it was.
+Everything that matters stands in the database or in the folder of the class; only when who was seen
+last is kept in memory. So a server that was killed goes on where it was.
 """
 
 from __future__ import annotations
@@ -31,11 +31,15 @@ from quizgen.classes.generation import (
 from quizgen.classes.gradebook import GradedStudent
 from quizgen.classes.grading_history import GradingHistory
 from quizgen.classes.key_index import KeyIndex
+from quizgen.classes.room_lists import FOLDER as LISTS
 from quizgen.classes.room_lists import number_seats
+from quizgen.classes.safe_exam_browser import FILE as SETTINGS_FILE
+from quizgen.classes.safe_exam_browser import read_config_key
 from quizgen.classes.seats import (
     HandedPaper,
     append_record,
     entry_code,
+    read_record,
     store_handed_papers,
 )
 from quizgen.classes.student_reports import grade_folder
@@ -60,6 +64,9 @@ WRONG_CODES = (20, 2.0)
 """Wrong codes from one address at once, and seconds until one more is looked at."""
 MOST_WARNINGS = 20
 """Of one student that are remembered; the latest."""
+CAME_IN = "came in"
+WARNINGS = {"reused": "code tried again", "address": "another computer"}
+"""What supervisors should look at, and what it is called in the record."""
 OPENED, HELD, RELEASED = "exam-opened", "exam-held", "exam-released"
 """What all servers of a database know of the exam."""
 MINUTE = 60.0
@@ -93,16 +100,19 @@ class SeatPaperJob:
 
 @dataclass
 class Presence:
-    """What is known of a student's browser since the server was started."""
+    """What is known of a student's browser."""
 
     seen: float = 0.0
     address: str = ""
     warnings: list[tuple[float, str, str]] = field(default_factory=list)
     """When, the key of its word, and what more is to be said."""
 
-    def warn(self, now: float, what: str, more: str = "") -> None:
-        """Remember something that supervisors should know."""
+    def warn(self, now: float, what: str, more: str = "") -> bool:
+        """Remember something that supervisors should know; False if it was said a moment ago."""
+        if any(now - at < MINUTE for at, *same in self.warnings if same == [what, more]):
+            return False
         self.warnings = [*self.warnings, (now, what, more)][-MOST_WARNINGS:]
+        return True
 
 
 class ClassRoom:
@@ -132,16 +142,40 @@ class ClassRoom:
         self.students = {one.id: one for one, _ in own}
         self.places = {one.id: seat for one, seat in own}
         self.exam = read_exam_details(folder / EXAM) or ExamDetails()
-        self.presence = {student: Presence() for student in self.students}
+        self.config_keys = self._list_config_keys()
+        self.presence = self._recall_presence()
         self.wrong_codes = Allowance(*WRONG_CODES)
         mark = hashlib.sha256(settings.secret.encode()).hexdigest()[:40]
-        if store.shared_value("class", mark) != mark:
+        if store.shared.settle("class", mark) != mark:
             raise ClassError(f"{folder}: the database is of another class; name another one")
         langs = {one.id: one.lang or settings.lang for one in self.students.values()}
         store.seats.add_students({who: self._first_language(lang) for who, lang in langs.items()})
         self._jobs = self._list_jobs()
         self._marks: dict[str, GradedStudent] | None = None
         self._stored = asyncio.Lock()
+
+    def _recall_presence(self) -> dict[str, Presence]:
+        """Return what the record of the exam tells of students' browsers."""
+        found = {student: Presence(self.now()) for student in self.students}
+        keys = {said: key for key, said in WARNINGS.items()}
+        for when, student, what, more in read_record(self.folder):
+            here = found.get(student)
+            if here and what in keys:
+                here.warn(when, keys[what], more)
+            if here and what in {CAME_IN, WARNINGS["address"]}:
+                here.address = more
+        return found
+
+    @property
+    def settings_file(self) -> Path:
+        """Return where the settings file of Safe Exam Browser stands."""
+        return self.folder.path / LISTS / SETTINGS_FILE
+
+    def _list_config_keys(self) -> list[str]:
+        """Return the settings of Safe Exam Browser with which students come in, by their keys."""
+        rules = self.exam.browser
+        own = [read_config_key(self.settings_file)] if rules.safe_exam_browser else []
+        return [*rules.config_keys, *own]
 
     def _list_jobs(self) -> dict[str, GenerationJob]:
         """Return what makes the papers; nothing once all are there, whatever the bank is now."""
@@ -176,17 +210,17 @@ class ClassRoom:
 
     def opens(self) -> float | None:
         """Return from when on students may begin; None until a person says so."""
-        opened = self.store.seats.find_shared_value(OPENED)
+        opened = self.store.shared.find(OPENED)
         begins = self.exam.browser.begins
         return float(opened) if opened else begins.timestamp() if begins else None
 
     def is_held(self) -> bool:
         """Return whether everybody is paused, so that nobody begins either."""
-        return bool(self.store.seats.find_shared_value(HELD))
+        return bool(self.store.shared.find(HELD))
 
     def is_released(self) -> bool:
         """Return whether students may see their marks."""
-        return bool(self.store.seats.find_shared_value(RELEASED))
+        return bool(self.store.shared.find(RELEASED))
 
     def time_left(self, seat: Seat, now: float) -> float:
         """Return the seconds that a student has who begins now; negative if it is too late."""
@@ -217,12 +251,17 @@ class ClassRoom:
         shown = status == "handed" and self.is_released()
         return hashlib.sha256(repr((state, shown)).encode()).hexdigest()[:12]
 
-    def note_seen(self, student: str, address: str) -> None:
-        """Note that a student's browser has asked for something."""
-        here, now = self.presence[student], self.now()
-        if here.address and here.address != address:
-            here.warn(now, "address", address)
-        here.seen, here.address = now, address
+    def note_seen(self, student: str, address: str) -> bool:
+        """Note that a student's browser has asked for something; return whether it is another."""
+        here = self.presence[student]
+        is_other = bool(here.address) and here.address != address
+        here.seen, here.address = self.now(), address
+        return is_other
+
+    def warn(self, student: str, what: str, address: str) -> None:
+        """Tell supervisors what they should look at, and write it down."""
+        if self.presence[student].warn(self.now(), what, address):
+            self.record("server", student, WARNINGS[what], address)
 
     def is_lost(self, seat: Seat) -> bool:
         """Return whether a browser that was writing has not been heard of for a while."""
@@ -326,7 +365,8 @@ class ClassRoom:
         }
         taken = max(0.0, (one.handed or one.begun) - one.begun - one.rested)
         lang = paper.items[0].wanted.lang
-        return HandedPaper(self.students[seat.student], one.code, lang, typed, taken / MINUTE)
+        times = taken / MINUTE, one.spent
+        return HandedPaper(self.students[seat.student], one.code, lang, typed, *times, one.decimal)
 
     def release(self, *, on: bool) -> None:
         """Let students see their marks, or not any more.
@@ -341,7 +381,7 @@ class ClassRoom:
             raise ClassError(
                 f"{self.folder.path}: nothing has been marked yet (quizgen class mark)"
             )
-        self.store.seats.share(RELEASED, str(time.time()) if on else "")
+        self.store.shared.replace(RELEASED, str(time.time()) if on else "")
 
     def marks_of(self, student: str) -> GradedStudent | None:
         """Return marks and grade of a student as they were when they were first asked for."""

@@ -17,6 +17,7 @@ from starlette.routing import Route
 
 from quizgen.core.decoding import decode_json
 from quizgen.core.errors import BlueprintError, PaperCodeError, QuizgenError
+from quizgen.grading.options import DECIMALS
 from quizgen.paper.blueprint import EVERYTHING, TRIAL, find_blueprint
 from quizgen.paper.code import parse_code
 from quizgen.paper.quota import draw_first_seed
@@ -37,7 +38,7 @@ from quizgen.web.forms import (
     read_form,
     read_ticked_criteria,
 )
-from quizgen.web.live_preview import preview_reading
+from quizgen.web.live_preview import preview_lines, preview_reading
 from quizgen.web.papers import MakePaper
 from quizgen.web.question_attempt import share_of_part
 from quizgen.web.question_view import PaperView, PartView, QuestionView
@@ -152,6 +153,7 @@ async def start_exam(request: Request) -> Response:
         pauses=pauses,
         paper=paper,
         practice=bool(field_text(form, "practice")),
+        decimal=progress_of(request).decimal,
     )
     if sitting is None:
         return redirect(f"/exam?{urlencode({'problem': 'shown', 'code': paper.code})}")
@@ -316,9 +318,18 @@ async def save_answers(request: Request) -> Response:
         await _hand_in(request, sitting)
     elif field_text(form, "do") in {"rest", "go-on"}:
         await run_in_threadpool(store.set_pause, sitting, on=field_text(form, "do") == "rest")
+    elif field_text(form, "do") in DECIMALS:
+        await run_in_threadpool(_declare_decimal, request, sitting, field_text(form, "do"))
     elif request.headers.get("accept", "").startswith("application/json"):
         return JSONResponse({"kept": kept, "at": site.store.clock.now()}, 200 if kept else 409)
     return redirect(f"/exam/{sitting.id}")
+
+
+def _declare_decimal(request: Request, sitting: ExamRecord, decimal: str) -> None:
+    """Read the answers of an exam by a decimal sign, and remember it for what comes next."""
+    store = request.app.state.site.store
+    store.sittings.declare_decimal(sitting, decimal)
+    store.update_settings(sitting.learner, {"decimal": decimal})
 
 
 async def submit_exam(request: Request) -> Response:
@@ -333,7 +344,7 @@ async def submit_exam(request: Request) -> Response:
     now = request.app.state.site.store.clock.now()
     return page_response(request, "hand_in.html.j2", sitting=sitting, paper=paper, now=now,
                 blank=_list_unfinished_questions(paper, answers),
-                unread=await _list_unread_parts(request, paper, answers),
+                unread=await _list_unread_parts(request, sitting, paper, answers),
                 flagged=[one for one in paper.items if one.wanted.number in flags])  # fmt: skip
 
 
@@ -349,11 +360,13 @@ def _list_unfinished_questions(
 
 
 async def _list_unread_parts(
-    request: Request, paper: PaperView, answers: Mapping[str, list[str]]
+    request: Request, sitting: ExamRecord, paper: PaperView, answers: Mapping[str, list[str]]
 ) -> list[tuple[QuestionView, PartView]]:
     """Return the parts whose answer cannot be read as one; they would get no points."""
     site: ServerState = request.app.state.site
-    results = await grade_exam(site.workers, paper, answers, {}, request.state.learner.id)
+    results = await grade_exam(
+        site.workers, paper, answers, {}, request.state.learner.id, sitting.decimal
+    )
     return [
         (question.made, one.part)
         for question in results.questions
@@ -382,7 +395,9 @@ async def _count(
 ) -> ExamResults:
     """Return the results; the first time, they are added to the learner's progress."""
     site: ServerState = request.app.state.site
-    results = await grade_exam(site.workers, paper, answers, sitting.marks, sitting.learner)
+    results = await grade_exam(
+        site.workers, paper, answers, sitting.marks, sitting.learner, sitting.decimal
+    )
     if not sitting.counted:
         first = await run_in_threadpool(
             site.store.sittings.count, sitting, outcome_records(results, sitting.id)
@@ -417,11 +432,15 @@ def _get_part(paper: PaperView, name: str) -> tuple[PartView, int]:
 async def preview_exam_answer(request: Request) -> Response:
     """Return how the typed answer is read, typeset; never whether it is right."""
     form = await read_form(request)
-    paper = await _make_paper(request, await _get_sitting(request))
+    sitting = await _get_sitting(request)
+    paper = await _make_paper(request, sitting)
     part, place = _get_part(paper, request.path_params["part"])
     values = read_answer(form, FIELDS + part.field.id)
     lang = request_language(request)
-    read = preview_reading(part.field, paper.items[place].key, values, lang)
+    key = paper.items[place].key
+    if lines := preview_lines(part.field, key, values, lang, sitting.decimal, judged=False):
+        return page_response(request, "lines_so_far.html.j2", lines=lines)
+    read = preview_reading(part.field, key, values, lang, sitting.decimal)
     return HTMLResponse(translate_page(lang, "practice.read", value=read) if read else "")
 
 

@@ -206,6 +206,7 @@ class MarkPaper:
     lang: str
     keys: bytes
     typed: tuple[tuple[str, ...], ...]
+    decimal: str = "auto"
 
     def run(self, bank: Bank) -> bytes:
         """Return the results of each question's parts as JSON."""
@@ -214,7 +215,7 @@ class MarkPaper:
         for key, typed in zip(
             decode_json(zlib.decompress(self.keys), list[KeyQuestion]), self.typed, strict=True
         ):
-            marker = QuestionGrader(key, GradingOptions(self.lang))
+            marker = QuestionGrader(key, GradingOptions(self.lang, self.decimal))
             found.append(
                 [
                     _strip_numbers(marker.grade_part(*one))
@@ -240,6 +241,7 @@ async def grade_exam(
     answers: Mapping[str, list[str]],
     own: Mapping[str, float],
     learner: int,
+    decimal: str = "auto",
 ) -> ExamResults:
     """Return the results of a paper, graded in a worker process.
 
@@ -252,6 +254,8 @@ async def grade_exam(
     own : mapping
         Part to the share that the learner gave it.
     learner : int
+    decimal : str
+        The decimal sign by which the answers are read.
     """
     lang = paper.items[0].wanted.lang
     values = [[answers.get(part.field.id, ()) for part in item.parts] for item in paper.items]
@@ -263,7 +267,7 @@ async def grade_exam(
         for item, mine in zip(paper.items, values, strict=True)
     )
     keys = zlib.compress(msgspec.json.encode([item.key for item in paper.items]), 1)
-    data = await workers.get_result(MarkPaper(lang, keys, typed), learner)
+    data = await workers.get_result(MarkPaper(lang, keys, typed, decimal), learner)
     results = pickle.loads(data)  # noqa: S301 - from a process of our own
     return ExamResults(tuple(
         ExamQuestionResult(item, tuple(

@@ -10,11 +10,15 @@ from markupsafe import Markup, escape
 
 from quizgen import typeset
 from quizgen.core.errors import FormulaError
-from quizgen.grading.options import DECIMALS
+from quizgen.grading.judge import explain_verdict
+from quizgen.grading.options import DECIMALS, GradingOptions
+from quizgen.grading.verdict import Verdict
+from quizgen.kinds.derivation import DerivationSpec
 from quizgen.kinds.grade import grade_answer
 from quizgen.locale import localise_numbers
 from quizgen.maths.notation import FormulaReadError, parse_formula
 from quizgen.maths.notation.pretty import format_number
+from quizgen.maths.precision import working_precision
 from quizgen.maths.units import SHOWN, SIMPLE, format_unit
 from quizgen.paper.answer_key import KeyQuestion
 from quizgen.practice.input_fields import join_fields
@@ -41,6 +45,7 @@ def preview_reading(
 ) -> Markup:
     """Return how an answer is read, typeset; empty if it is incomplete or unreadable."""
     part = next(part for part in key.parts if part.id == field.id)
+    spec = part.parse_spec()
     boxes = bool(field.control.boxes)
     there = [bool(value.strip()) for value in values]
     if boxes and any(there):  # an empty box beside it must not change how a value is read
@@ -48,10 +53,28 @@ def preview_reading(
     typed = join_fields(field.control, values, field.marks)
     if part.spec["kind"] not in READ or not typed or any(map(_HALF.search, values)):
         return Markup()
-    verdict = grade_answer(part.parse_spec(), typed, decimal=decimal)
+    verdict = grade_answer(spec, typed, decimal=decimal)
     if not verdict.is_graded:
         return Markup()
     return _typeset_values(verdict.read_as, lang, boxes=boxes, filled=there)
+
+
+def preview_lines(
+    field: FieldView,
+    key: KeyQuestion,
+    values: Sequence[str],
+    lang: str,
+    decimal: str = DECIMALS[0],
+    *,
+    judged: bool,
+) -> tuple[Verdict, ...]:
+    """Return how the lines of a derivation are read, and if wished which hold; none for others."""
+    spec = next(part for part in key.parts if part.id == field.id).parse_spec()
+    if not isinstance(spec, DerivationSpec) or not values:
+        return ()
+    with working_precision():
+        lines = spec.follow(values[0], GradingOptions(decimal), judged=judged)
+    return tuple(explain_verdict(spec, line, lang, reveal=False) for line in lines)
 
 
 def _typeset_values(

@@ -39,6 +39,7 @@ from quizgen.classes.rubrics import (
     write_points,
 )
 from quizgen.classes.rulings import DECIDE, SECOND, Ruling
+from quizgen.classes.scanning.scan_folder import ON_PAPER
 from quizgen.core.errors import ClassError, FormulaError, QuizgenError
 from quizgen.core.executor import InlineExecutor
 from quizgen.web.auth import set_cookie
@@ -53,6 +54,7 @@ COOKIE, COOKIE_DAYS = "quizgen-marker", 30
 LONGEST_NAME = 100
 MOST_CROPS = 6
 """Pictures of a card."""
+LONGEST_TYPED = 2000
 
 
 @cache
@@ -235,7 +237,7 @@ def _build_card(
     following = desk.find_next(
         asked.item, who.name, asked.markers, second=asked.second, after=place
     )
-    decided = sum(one.is_decided(said) for one in cards)
+    decided = sum(one.is_decided(desk.list_done(second=asked.second)) for one in cards)
     pace = state.pace(who.name)
     now = said.get(card.name)
     untouched, first = desk.untouched_rubric(asked.item), card.cases[0]
@@ -248,7 +250,7 @@ def _build_card(
     return {
         "asked": asked, "card": card, "place": place, "count": len(cards), "decided": decided,
         "minutes": round(pace * (len(cards) - decided) / 60) if pace else None,
-        "answers": [_AnswerRow.build(index, case, said) for case in card.cases],
+        "answers": [_AnswerRow.build(index, case, said, desk.list_typed()) for case in card.cases],
         "lines": [
             (one, word_line(one, untouched, first), one.id in ticked)
             for one in rubric.current_lines
@@ -288,6 +290,10 @@ class _AnswerRow:
         Of the students, or their codes.
     step : str
         What is decided of it by now; empty if nothing.
+    is_decided, to_read : bool
+        Whether it is decided, and whether it stands on a picture alone.
+    typed : str
+        What somebody read there since the class was marked.
     """
 
     group: str
@@ -297,10 +303,16 @@ class _AnswerRow:
     names: list[str]
     step: str
     is_decided: bool
+    to_read: bool
+    typed: str
 
     @classmethod
     def build(
-        cls, index: AnswerIndex, case: DecisionCase, said: Mapping[str, Ruling]
+        cls,
+        index: AnswerIndex,
+        case: DecisionCase,
+        said: Mapping[str, Ruling],
+        typed: Mapping[str, str],
     ) -> _AnswerRow:
         """Return the row of equal answers."""
         group = case.answer.group
@@ -313,6 +325,7 @@ class _AnswerRow:
             group, _spots(case), case.answer.students, crops,
             [index.describe(one.student) for one in whose],
             said[group].step if group in said else "", group in said,
+            index.is_to_be_read(case), typed.get(group, ""),
         )  # fmt: skip
 
 
@@ -376,7 +389,9 @@ def _save_decision(form: FormData, who: Marker, desk: MarkingDesk) -> str:
     return "" if following is None else asked.url(cards[following])
 
 
-NOTES = frozenset({"unticked", "range", "taken", "undone", "nothing", "done", "marked", "busy"})
+NOTES = frozenset(
+    {"typed", "unticked", "range", "taken", "undone", "nothing", "done", "marked", "busy"}
+)
 """What pages say of what was just done."""
 
 
@@ -420,6 +435,38 @@ def _read_decision(
         one.check()
         check_points(one, str(card.worth))
     return made
+
+
+async def save_typed(request: Request) -> Response:
+    """Take what a marker read on a picture as the answer; redirect to the next card."""
+    form, who, desk = await read_form(request), get_marker(request), _get_desk(request)
+    following = await run_in_threadpool(_save_typed, form, who, desk)
+    return redirect(following) if following else _leave_cards(request)
+
+
+def _save_typed(form: FormData, who: Marker, desk: MarkingDesk) -> str:
+    """Write what was read, and return where to go on; empty if nothing is left to decide."""
+    asked = _read_round(desk, who, field_text(form, "item"), field_text(form, "second"))
+    group, typed = field_text(form, "group"), field_text(form, "typed").strip()[:LONGEST_TYPED]
+    back = bool(field_text(form, "back"))
+    place = desk.index().find(asked.item, group)
+    if place is None:
+        raise HTTPException(404)
+    cards = desk.index().items[asked.item]
+    try:
+        made = desk.type_answer(asked.item, group, ON_PAPER if back else typed, who.name)
+    except ClassError:
+        return asked.url(cards[place], note="busy")
+    if back:
+        return asked.url(cards[place], note="undone")
+    following = desk.find_next(
+        asked.item, who.name, asked.markers, second=asked.second, after=place
+    )
+    if following is None:
+        return ""
+    earned = "" if made.marks is None else f" → {write_points(Fraction(made.marks))}"
+    shown = f"{made.id}: {typed or '–'}{earned}"
+    return asked.url(cards[following], note="typed", taken=shown)
 
 
 async def undo_decision(request: Request) -> Response:
@@ -619,6 +666,7 @@ ROUTES = [
     Route(f"{PLACE}/apart", show_apart),
     Route(f"{PLACE}/crop/{{code}}/{{part}}", show_crop),
     Route(f"{PLACE}/decide", save_decision, methods=["POST"]),
+    Route(f"{PLACE}/typed", save_typed, methods=["POST"]),
     Route(f"{PLACE}/undo", undo_decision, methods=["POST"]),
     Route(f"{PLACE}/line", change_line, methods=["POST"]),
     Route(f"{PLACE}/settle", settle, methods=["POST"]),

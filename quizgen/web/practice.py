@@ -23,7 +23,7 @@ from quizgen.practice.session_state import PracticeRequest
 from quizgen.store import AttemptRecord, QuestionRef
 from quizgen.web.block import begin_block, find_block
 from quizgen.web.forms import field_text, read_answer, read_form, read_ticked_criteria
-from quizgen.web.live_preview import preview_reading
+from quizgen.web.live_preview import preview_lines, preview_reading
 from quizgen.web.question_attempt import AttemptInBrowser, AttemptPart
 from quizgen.web.question_view import MarkedFigureJob, QuestionRequest, QuestionView
 from quizgen.web.questions import list_places
@@ -357,7 +357,7 @@ def _perform_action(
 
 
 async def preview_practice_answer(request: Request) -> Response:
-    """Return how the typed answer is read, typeset; never whether it is right."""
+    """Return how the typed answer is read, typeset, and which lines of a derivation hold."""
     form = await read_form(request)
     made = await _make_question(request, await _get_attempt(request))
     name = request.path_params["part"]
@@ -366,7 +366,10 @@ async def preview_practice_answer(request: Request) -> Response:
         raise HTTPException(404)
     lang = request_language(request)
     decimal = progress_of(request).decimal
-    read = preview_reading(field, made.key, _read_part(form, name), lang, decimal)
+    values = _read_part(form, name)
+    if lines := preview_lines(field, made.key, values, lang, decimal, judged=True):
+        return page_response(request, "lines_so_far.html.j2", lines=lines)
+    read = preview_reading(field, made.key, values, lang, decimal)
     return HTMLResponse(translate_page(lang, "practice.read", value=read) if read else "")
 
 

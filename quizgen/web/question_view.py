@@ -20,13 +20,15 @@ from quizgen.figures import FieldPicture
 from quizgen.grading.spec import AnySpec
 from quizgen.kinds import point
 from quizgen.kinds.contract import InputControl
+from quizgen.kinds.derivation import DerivationSpec
+from quizgen.kinds.equation import EquationSpec
+from quizgen.kinds.expression import ExpressionSpec
 from quizgen.locale import BOTH
 from quizgen.paper.answer_key import KeyQuestion, make_key_question
 from quizgen.paper.blueprint import find_blueprint
 from quizgen.paper.paper import Paper, PaperItem, build_paper, rebuild_paper
 from quizgen.paper.provenance import record_banks
 from quizgen.question.compose import (
-    AnswerField,
     Question,
     QuestionKey,
     QuestionPart,
@@ -49,6 +51,10 @@ from quizgen.question.solution import (
 from quizgen.web.moving import MovingView, find_moving_figure
 
 _MATHS = re.compile("</?math[^>]*>")
+_NUMBERED = re.compile(
+    r"\(([1-9])\) (?:<span[^>]*>)?(<math[^>]*>.*?</math>|[^,;:?.(<_]{1,24}(?=[,?]))"
+)
+"""The number of what is asked, and its sign or few words."""
 
 Html = str
 """Markup made here; whatever a learner typed never gets into it."""
@@ -70,6 +76,8 @@ class FieldView(msgspec.Struct, frozen=True):
     """The field that is drawn in, if the answer is a drawing."""
     near: str | None = None
     """The words around the field, if it stands inside a sentence or a cell."""
+    formula_names: list[tuple[str, Html]] | None = None
+    """Names that a formula may hold, as they are typed and typeset; None if no formula is asked."""
 
     @property
     def marks(self) -> list[str]:
@@ -315,7 +323,7 @@ def question_view(
         figure=figure.inline_svg.decode() if figure else "",
         solved_figure=other.inline_svg.decode() if other else "",
         parts=[
-            _render_part(part, solved_part, _render_box_names(part, spec, stem, lang), lang, bank)
+            _render_part(part, solved_part, _render_field(part, spec, stem, lang), lang, bank)
             for part, solved_part, spec in zip(
                 question.parts, solution.parts, key.specs, strict=True
             )
@@ -353,19 +361,44 @@ def _render_box_names(part: QuestionPart, spec: AnySpec, stem: Html, lang: str) 
     of = spec.of if isinstance(spec, point.PointSpec) and isinstance(spec.of, list) else []
     names = [_render_inline((name_inline(name),), lang) for name in of]
     asked = stem + _render_blocks(part.body, lang)
-    said = all(_MATHS.sub("", name) in asked for name in names)
-    return names if said and len(names) == len(boxes) else [""] * len(boxes)
+    if _are_said(names, asked) and len(names) == len(boxes):
+        return names
+    return _find_numbered(asked, len(boxes)) or [""] * len(boxes)
+
+
+def _are_said(names: Iterable[Html], asked: Html) -> bool:
+    """Return whether a question mentions all of some typeset names."""
+    return all(_MATHS.sub("", name) in asked for name in names)
+
+
+def _list_formula_names(
+    part: QuestionPart, spec: AnySpec, stem: Html, lang: str
+) -> list[tuple[str, Html]] | None:
+    """Return the names of a formula, if the question says them; None if no formula is asked."""
+    if not isinstance(spec, ExpressionSpec | EquationSpec | DerivationSpec):
+        return None
+    names = [(name, _render_inline((name_inline(name),), lang)) for name in spec.symbols]
+    asked = stem + _render_blocks(part.body, lang)
+    given = isinstance(spec, DerivationSpec) or _are_said((shown for _, shown in names), asked)
+    return names if given else []
+
+
+def _find_numbered(asked: Html, count: int) -> list[Html]:
+    """Return what a sentence such as "(1) V, (2) S, (3) H" asks of each box; empty if not all."""
+    found = _NUMBERED.findall(asked)
+    in_order = [number for number, _ in found] == [str(place) for place in range(1, count + 1)]
+    return [f"({number}) {name}" for number, name in found] if in_order else []
 
 
 def _render_part(
-    part: QuestionPart, solved: PartSolution, names: list[Html], lang: str, bank: Bank | None
+    part: QuestionPart, solved: PartSolution, field: FieldView, lang: str, bank: Bank | None
 ) -> PartView:
-    """Return a part and its solution as HTML; ``names`` are those of its boxes."""
+    """Return a part and its solution as HTML."""
     return PartView(
         part.label,
         float(part.points),
         _render_blocks(part.body, lang),
-        _render_field(part.field, names, lang),
+        field,
         [
             StepView(
                 str(chain_to_html(line.maths, lang)),
@@ -396,12 +429,13 @@ def _render_part(
     )
 
 
-def _render_field(field: AnswerField, names: list[Html], lang: str) -> FieldView:
+def _render_field(part: QuestionPart, spec: AnySpec, stem: Html, lang: str) -> FieldView:
     """Return the input field of a part, with its options as HTML."""
+    field = part.field
     return FieldView(
         field.id,
         field.control,
-        names,
+        _render_box_names(part, spec, stem, lang),
         [(mark, _render_inline(text, lang)) for mark, text in field.options],
         [(mark, _render_inline(text, lang)) for mark, text in field.targets],
         [
@@ -411,6 +445,7 @@ def _render_field(field: AnswerField, names: list[Html], lang: str) -> FieldView
         _render_inline(field.hint_in_fields, lang),
         _render_board(field.drawing),
         field.near,
+        _list_formula_names(part, spec, stem, lang),
     )
 
 

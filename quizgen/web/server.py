@@ -214,7 +214,7 @@ def _open_previous_port(host: str, store: Store) -> socket.socket:
     """
     anywhere = _open_listening_socket(host, 0)
     port = anywhere.getsockname()[1]
-    before = int(store.shared_value("port", str(port)))
+    before = int(store.shared.settle("port", str(port)))
     if before == port:
         return anywhere
     try:

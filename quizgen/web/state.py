@@ -134,7 +134,7 @@ class ServerState:
         self.room = open_class_room(settings, self.store, self.workers, self.papers)
         """The class that sits its exam here, if one does."""
         self.password_limits = PasswordLimits()
-        self.browser_secret = self.store.shared_value("browsers", secrets.token_urlsafe(24))
+        self.browser_secret = self.store.shared.settle("browsers", secrets.token_urlsafe(24))
         """What proves that somebody has signed in at a browser before."""
         self._quotas = {name: Allowance(*quota) for name, quota in QUOTAS.items()}
         self.languages = tuple(filter(list_languages().__contains__, self.bank.languages)) or (

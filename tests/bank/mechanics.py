@@ -10,7 +10,7 @@ name = "mechanics"
 version = "1.2"
 licence = "CC BY 4.0"
 authors = ["A. Lecturer"]
-requires = ">=0.1"
+requires = ">=1.0"
 languages = ["en"]
 units = ["crate = [goods] = cr = crates", "haul = kcr * m / s**2 = hu", "press = 100000 * hu / m**2 = press"]
 title.en = "Mechanics"

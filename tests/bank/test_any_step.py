@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 import scipy.integrate
 import scipy.stats
 import sympy
+from flint import fmpq
 from symbolic_bank import SOLVERS, write_bank
 
 from quizgen.bank.bank import Bank
@@ -24,6 +27,30 @@ SEEDS = 12
 @pytest.fixture(scope="module")
 def bank(tmp_path_factory):
     return Bank(write_bank(tmp_path_factory.mktemp("symbolic") / "bank"), trusted=True)
+
+
+def test_what_follows_from_a_wrong_formula_is_its_mistake_too():
+    x, a, c, slope = sympy.symbols("x a c D")
+    f, df = sympy.Function("f")(x), sympy.Function("df")(x)
+    chain = Model(
+        given={a: "", c: ""},
+        free=("x",),
+        steps=(
+            Step(f, sympy.sin(a * x)),
+            Step(df, sympy.diff(f, x)),
+            Step("ddf", sympy.diff(df, x)),
+            Step(slope, df.subs(x, c)),
+        ),
+        traps={"inner": Step(df, sympy.cos(a * x))},
+    ).chain()
+    given = {"a": fmpq(3), "c": fmpq(1, 2)}
+    solved = chain.solve(given)
+    wrong = chain.solve_with_misconception("inner", solved)
+    assert to_float(solved["D"]) == pytest.approx(3 * math.cos(1.5))
+    assert to_float(wrong["D"]) == pytest.approx(math.cos(1.5))
+    assert [step.name for step in chain.form_traps["inner"]] == ["df", "ddf"]
+    assert chain.required_forms(chain.steps) == ["f", "df"]
+    assert chain.required_forms(chain.steps, {"df"}) == []
 
 
 @pytest.mark.parametrize("name", SOLVERS)

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import re
+
 from sweep import spread, together
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.grading.judge import explain_verdict, judge_answer
 from quizgen.grading.options import PLAIN
 from quizgen.grading.spec import NumericSpec
+from quizgen.kinds.choice import ChoiceSpec
 from quizgen.kinds.code import CodeSpec
 from quizgen.kinds.gap import GapSpec
+from quizgen.kinds.match import MatchSpec
+from quizgen.kinds.order import OrderSpec
 from quizgen.question.compose import compose_question
 
 NONSENSE = ("zzzzzzz", "987654321", "জজজজজজজ", "qqqq; zzzz; wwww; vvvv")
@@ -40,6 +45,40 @@ def test_nonsense_is_answered_without_the_answer(name):
             for lang in ("en", "bn", "de"):
                 message = explain_verdict(spec, verdict, lang, reveal=False).message.lower()
                 assert [word for word in wanted_words(spec) if word in message] == [], typed
+
+
+def wrong_picks(spec):
+    """Wrong answers that are one choice, pair or step away, with the words that were wanted."""
+    if isinstance(spec, ChoiceSpec) and spec.kind == "choice":
+        (right,) = spec.correct
+        for place in range(1, len(spec.options) + 1):
+            if place != right:
+                yield str(place), [spec.options[right - 1]]
+    elif isinstance(spec, MatchSpec):
+        sides = {label for label in spec.words if label not in spec.pairs} | {*spec.pairs.values()}
+        for left, right in spec.pairs.items():
+            for other in sorted(sides - {right}):
+                yield f"{left}{other}", [spec.words.get(right, "")]
+    elif isinstance(spec, OrderSpec):
+        right = spec.show().split()
+        for place in range(len(right) - 1):
+            swapped = [*right[:place], right[place + 1], right[place], *right[place + 2 :]]
+            yield " ".join(swapped), [spec.words.get(step, "") for step in right]
+
+
+def holds(message: str, words: str) -> bool:
+    bare = " ".join(re.split(r"[^\w\u0980-\u09ff]+", words.lower())).strip()
+    plain = " ".join(re.split(r"[^\w\u0980-\u09ff]+", message.lower()))
+    return len(bare) >= SHORTEST and f" {bare} " in f" {plain} "
+
+
+@together("name", spread(NAMES, 24))
+def test_a_wrong_pick_is_answered_without_the_right_one(name):
+    for spec in compose_question(builtin_bank().template(name), "1", "en")[1].specs:
+        for typed, wanted in wrong_picks(spec):
+            verdict = judge_answer(spec, typed, PLAIN)
+            message = explain_verdict(spec, verdict, "en", reveal=False).message
+            assert [words for words in wanted if holds(message, words)] == [], typed
 
 
 def test_the_reasons_are_said_in_the_end():

@@ -228,16 +228,17 @@ def fill_sheet(
     marks: dict[int, str] = {}
     parts: dict[str, list[int]] = {}
     for place, one in enumerate(fields):
-        parts.setdefault(one["part"], []).append(place)
+        if one["kind"] != "points":
+            parts.setdefault(one["part"], []).append(place)
     for part, places in parts.items():
-        if fields[places[0]]["kind"] == "line":
+        kind = {fields[place]["kind"] for place in places}
+        if "box" not in kind:
             written = r.random() < 0.85
             for place in places if written else ():
-                text = "".join(r.choice("0123456789-.netl") for _ in range(r.randint(1, 7)))
-                text = text if text.strip(".") else f"5{text}"
-                pen.write(pages[fields[place]["page"] - 1], fields[place], text)
+                write_field(pages[fields[place]["page"] - 1], fields[place], pen)
             meant[part] = None if written else ""
             continue
+        places = [place for place in places if fields[place]["kind"] == "box"]  # noqa: PLW2901
         options = [fields[place].get("option", "") for place in places]
         if ":" in options[0]:
             rows = sorted({one.partition(":")[0] for one in options})
@@ -264,6 +265,18 @@ def fill_sheet(
             marks[place] = kind
         meant[part] = ", ".join(one for one in options if one in chosen)
     return meant, marks
+
+
+def write_field(page: Image.Image, field: dict, pen: Pen) -> None:
+    """Write something on a line, or several lines of it where there is room."""
+    r = pen.random
+    rows = 2 if field["h"] > 20 else 1
+    for row in range(rows):
+        most = max(1, min(5, int(field["w"] / 4)))
+        text = "".join(r.choice("0123456789-.netl") for _ in range(r.randint(1, most)))
+        text = text if text.strip(".") else f"5{text}"[:most]
+        line = field | {"h": min(field["h"], 8.0), "y": field["y"] + 9.0 * row}
+        pen.write(page, line, text)
 
 
 def rasterise(pdf: Path) -> list[Image.Image]:

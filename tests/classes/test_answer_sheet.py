@@ -92,7 +92,7 @@ def test_the_code_of_each_page_leads_to_its_student_and_page(scanned, folder, ca
         head, number = find_sheet_page(ClassFolder(folder), text)
         assert (head.id, number) == (line["id"], page)
     assert run("class", "code", folder, text) == 0
-    assert f"8, page {page} of the answer sheet" in capsys.readouterr().out
+    assert f"8, page {page}" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("change", [
@@ -101,7 +101,7 @@ def test_the_code_of_each_page_leads_to_its_student_and_page(scanned, folder, ca
 ])  # fmt: skip
 def test_a_code_that_was_not_signed_is_refused(scanned, folder, change):
     line = scanned[0][0]
-    code = format_sheet_code(ClassFolder(folder).settings.secret, line["code"], 1)
+    code = format_sheet_code(ClassFolder(folder).settings.secret, line["code"], 1, 1)
     assert find_sheet_page(ClassFolder(folder), code)[1] == 1
     with pytest.raises(ClassError, match="no page of this class"):
         find_sheet_page(ClassFolder(folder), change(code))

@@ -240,6 +240,50 @@ def test_every_picture_is_attributed_or_listed(folder, lines, blanks, tmp_path, 
     assert read_answers(folder)["7", part] == option, "the second picture is a better one"
 
 
+def test_a_page_without_a_code_is_assigned_by_hand_and_taken_back(
+    folder, lines, blanks, tmp_path, capsys
+):
+    box = options_of(lines["7"], "choice")[1]
+    part, option = box.split()
+    page = crossed(blanks["7"], lines["7"], {box: "cross"}, clear_pen(4))
+    x, y, side = (round(one * 200 / 25.4) for one in lines["7"]["sheet"]["code"])
+    page.paste(90, (x, y, x + side, y + side))  # a coffee cup on the code
+    save_scan(page, tmp_path / "cup", "200", upside_down=True)
+    torn = page.copy()
+    torn.paste(255, (0, 0, 1700, 800))  # two marks are gone, too
+    save_scan(torn, tmp_path / "torn", "200")
+    assert run("class", "scan", folder, tmp_path / "cup.jpg", tmp_path / "torn.jpg") == 1
+    assert "cup.jpg, page 1: no code can be read" in capsys.readouterr().out
+    strays = [one for one in ScanFolder(ClassFolder(folder)).iter_pages() if not one.student]
+    cup, rest = (f"{one.digest}-{one.number}" for one in strays)
+    assert f'data-picture="{cup}"' in (folder / "scans" / "scans.html").read_text("utf-8")
+
+    def assign(who: str, page: str, picture: str = cup) -> int:
+        table = tmp_path / "typed.csv"
+        table.write_text(f"id,part,answer\n{who},{page},{picture}\n", "utf-8")
+        return run("class", "scan", folder, table)
+
+    assert assign("7", "page 2") == 2
+    assert "the paper of 7 has 1 pages, and no page 2" in capsys.readouterr().err
+    assert assign("7", "page 1", "../../../etc/passwd") == 2
+    assert "there is no picture" in capsys.readouterr().err
+    assert assign("7", "page 1") == 1, "the other picture is still of nobody"
+    assert read_answers(folder)["7", part] == option
+    assert assign("", "page", cup) == 1
+    assert "No sheet came of:\n7\n8\n" in capsys.readouterr().out
+    assert not [*(folder / "scans" / lines["7"]["code"]).iterdir()]
+    assert assign("8", "page 1", rest) == 1
+    assert "8, page 1: corner marks cannot be found" in capsys.readouterr().out
+    crops = {path.stem for path in (folder / "scans" / lines["8"]["code"]).glob("*.png")}
+    assert crops == {one["part"] for one in lines["8"]["sheet"]["fields"]}, (
+        "each part has a picture"
+    )
+    assert assign("7", "page 1", rest) == 1, "it was another one's"
+    assert not [*(folder / "scans" / lines["8"]["code"]).iterdir()]
+    said = [json.loads(one) for one in (folder / "scans" / "pages.jsonl").read_text().splitlines()]
+    assert [one.get("student", "") for one in said] == ["", "", "7", "", "8", "7"], "all is kept"
+
+
 def test_what_was_read_is_not_read_again_and_a_torn_line_is(
     folder, lines, blanks, tmp_path, capsys
 ):
@@ -331,7 +375,10 @@ def test_a_class_without_sheets_says_so(folder, blanks, tmp_path, capsys):
         "utf-8",
     )
     assert run("class", "scan", folder, tmp_path / "a.jpg") == 2
-    assert "has no answer sheets to read (quizgen class make --sheet)" in capsys.readouterr().err
+    assert (
+        "has no papers or sheets to read (quizgen class make --scan, --sheet)"
+        in capsys.readouterr().err
+    )
     assert run("class", "scan", tmp_path) == 2
     assert "is not the folder of a class" in capsys.readouterr().err
 

@@ -6,6 +6,7 @@ import json
 import os
 import re
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -59,6 +60,19 @@ def filled(form: Path) -> bytes:
 
 
 TRIAL = ("exam", "--blueprint", "trial", "--format", "html", "--seed")
+
+
+def test_no_network_is_asked_for(tmp_path, monkeypatch):
+    def refuse(*_arguments):
+        raise AssertionError("a network was asked for")
+
+    for owner, name in ((socket.socket, "connect"), (socket, "getaddrinfo")):
+        monkeypatch.setattr(owner, name, refuse)
+    assert run(*TRIAL, "4", "--out", "exam", cwd=tmp_path).returncode == 0
+    form = tmp_path / "exam" / "answers.toml"
+    filled(form)
+    result = run("check", "exam/key.json", "exam/answers.toml", cwd=tmp_path)
+    assert result.returncode == 0, result.stderr
 
 
 def test_a_paper_has_a_folder_of_its_own_named_by_its_code(tmp_path):

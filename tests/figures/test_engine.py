@@ -201,6 +201,9 @@ def fill(rule, **values):
         (Parameter("", "levels", kind="table"), [1, 2], "x = 1 is no list"),
         (Parameter("", "levels", kind="table"), [[1, 2], [3]], "x: rows of different lengths"),
         (Parameter("", "name", kind="text"), 3, "x = 3 is no text"),
+        (Parameter("", "gates", kind="texts"), "or", "x = 'or' is no list"),
+        (Parameter("", "gates", kind="texts"), ["or", 3], "x: not all are texts"),
+        (Parameter("", "gates", kind="words"), ["or"], "x: there is no kind 'words'"),
     ],
 )
 def test_a_value_that_cannot_be_drawn_gets_one_line(rule, value, message):
@@ -223,6 +226,7 @@ def test_values_are_numbers_lists_tables_arrays_and_text():
     assert fill(Parameter("", "levels", kind="table"), x=[[1, 2], (3, 4)]) == ((1, 2), (3, 4))
     assert fill(Parameter("", "levels", kind="table"), x=np.eye(2)) == ((1, 0), (0, 1))
     assert fill(Parameter("", "name", kind="text"), x="convex") == "convex"
+    assert fill(Parameter("", "gates", kind="texts"), x=["or", "and"]) == ("or", "and")
 
 
 def test_what_is_left_out_has_its_default_or_is_absent():

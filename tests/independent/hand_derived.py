@@ -6,13 +6,14 @@ for them at many places, and each known mistake must not.
 
 from __future__ import annotations
 
+import colorsys
 import math
 import re
 from collections.abc import Callable, Mapping
 from typing import Any
 
 from by_hand import solves
-from printed_numbers import numbers
+from printed_numbers import numbers, points
 from printed_page import Page
 
 Values = Mapping[str, Any]
@@ -163,3 +164,118 @@ def even_powers(page: Page) -> dict[str, Any]:
         return {"a_1": 0, "a_3": 0, "L": left, "M": left, "x'": v["x"] * left}
 
     return {"a": factor}
+
+
+@solves("derive-width-of-gaussian")
+def width_of_bell(page: Page) -> dict[str, Any]:
+    """Notes 4.4, F15: where the bell has fallen to a share of its peak, by halving an interval."""
+    shares = {"half": 2, "quarter": 4, "tenth": 10, "twentieth": 20,
+              "অর্ধেক": 2, "চার ভাগ": 4, "দশ ভাগ": 10, "বিশ ভাগ": 20}  # fmt: skip
+    share = next(1 / parts for word, parts in shares.items() if word in page.stem)
+
+    def place(sigma: float) -> float:
+        low, high = 0.0, 10 * sigma
+        for _ in range(200):
+            middle = (low + high) / 2
+            above = math.exp(-((middle / sigma) ** 2) / 2) > share
+            low, high = (middle, high) if above else (low, middle)
+        return low
+
+    spread = float(numbers(page.parts["b"].text.split("=")[1])[0])
+    return {"a": lambda v: {"x": place(v["sigma"])}, "b": lambda _: {"w": 2 * place(spread)}}
+
+
+@solves("show-radial-line-stays-straight")
+def radial_line(page: Page) -> dict[str, Any]:
+    """Notes 4.5, F20 and E02: both coordinates times the same factor."""
+    slope = float(page["y"])
+
+    def moved(v: Values) -> dict[str, Any]:
+        x, y = v["x"], slope * v["x"]
+        r = math.hypot(x, y)
+        factor = 1 + v["k_1"] * r**2
+        return {"y": y, "r": r, "x'": x * factor, "y'": y * factor}
+
+    return {"a": moved}
+
+
+@solves("derive-distance-from-two-pictures")
+def two_pictures(page: Page) -> dict[str, Any]:
+    """Notes 4.1, F05 and F10: depth times height in the picture is the same twice."""
+    way = 1 if page.says("away from it", "পেছনে") else -1
+    step, tall, small = (float(page[name]) for name in ("d", "h_1", "h_2"))
+
+    def heights(v: Values) -> dict[str, Any]:
+        return {"h_1": v["f"] * v["Y"] / v["Z"], "h_2": v["f"] * v["Y"] / (v["Z"] + way * v["d"])}
+
+    return {"a": heights, "b": lambda _: {"Z": small * way * step / (tall - small)}}
+
+
+@solves("derive-dolly-zoom")
+def dolly_zoom(page: Page) -> dict[str, Any]:
+    """Notes 4.1, F05 and F07: sizes are focal length over depth."""
+    times = float(numbers(page.stem)[0])
+    behind = float(numbers(page.parts["b"].text)[0])
+
+    def actor(v: Values) -> dict[str, Any]:
+        height = v["f"] * v["Y"] / v["Z"]
+        return {"h_1": height, "h_2": height, "f_2": height * times * v["Z"] / v["Y"]}
+
+    def poster(v: Values) -> dict[str, Any]:
+        depth = (1 + behind) * v["Z"]
+        before = v["f"] * v["W"] / depth
+        after = times * v["f"] * v["W"] / (depth + (times - 1) * v["Z"])
+        return {"f_2": times * v["f"], "w_1": before, "w_2": after, "m": after / before}
+
+    return {"a": actor, "b": poster}
+
+
+@solves("derive-flat-field")
+def flat_field(page: Page) -> dict[str, Any]:
+    """F39 and E31: the share that gets through is the same for wall and scene."""
+    raw, flat, dark, wall = (float(page[name]) for name in ("R", "W", "D", "L_0"))
+    return {
+        "a": lambda v: {"R": v["D"] + v["v"] * v["L"], "W": v["D"] + v["v"] * v["L_0"]},
+        "b": lambda _: {"L": (raw - dark) / ((flat - dark) / wall)},
+    }
+
+
+@solves("show-saturation-under-light")
+def saturation(page: Page) -> dict[str, Any]:
+    """Notes 4.6, F23, by the standard library's own conversion for the pixel."""
+    added = page.says("added to all three", "একই সংখ্যা w যোগ")
+    found = points(page.parts["b"].text)[0]
+    by = float(numbers(page.parts["b"].text.split(")")[1])[0])
+    after = [float(one) + by if added else float(one) * by for one in found]
+
+    def both(v: Values) -> dict[str, Any]:
+        pair = [v["M"] + v["w"], v["m"] + v["w"]] if added else [v["k"] * v["M"], v["k"] * v["m"]]
+        return {"S": 1 - v["m"] / v["M"], "S'": 1 - pair[1] / pair[0]}
+
+    return {"a": both, "b": lambda _: {"S'": colorsys.rgb_to_hsv(*after)[1]}}
+
+
+@solves("derive-noise-of-a-mean")
+def mean_of_noise(page: Page) -> dict[str, Any]:
+    """Notes 2.13, X-C09: variances of independent values add up."""
+    block = page.says("blocks of", "block গড়")
+    times = float(numbers(page.parts["b"].text)[0])
+
+    def of_mean(v: Values) -> dict[str, Any]:
+        count = v["n"] ** 2 if block else v["n"]
+        return {"V": count * v["sigma"] ** 2, "s": v["sigma"] * count**-0.5}
+
+    return {"a": of_mean, "b": lambda _: {"n": times if block else times * times}}
+
+
+@solves("derive-quantisation-error")
+def rounding_error(page: Page) -> dict[str, Any]:
+    """Notes 2.13, X-A10: half the distance of two of 2^b levels."""
+    volts, bits = (float(one) for one in numbers(page.parts["b"].text)[:2])
+
+    def error(top: float, count: float) -> dict[str, Any]:
+        step = top / (2**count - 1)
+        return {"n": 2**count, "d": step, "e": step / 2}
+
+    return {"a": lambda v: error(v["A"], v["b"]),
+            "b": lambda _: {"e": 1000 * error(volts, bits)["e"]}}  # fmt: skip

@@ -130,3 +130,19 @@ def nine_pixels(page: Page) -> dict[str, Any]:
     gain = (spread**2 - float(page["v_d"])) / signal
     return {"a": (Fraction(statistics.mean(levels)), Fraction(spread)),
             "b": Fraction(signal / spread), "c": Fraction(gain)}  # fmt: skip
+
+
+@solves("camera-matrix-with-centred-pixels")
+def centred_camera(page: Page) -> dict[str, Any]:
+    """E27: where the middle of the whole picture lies, counted from corners and then from centres."""
+    f, *_, left, top = page.amounts("px")
+    factor = page.amounts("")[-1]
+    wide, high = page.amounts("")[:2]
+    corner = (wide / 2 - left, high / 2 - top)
+    resized = tuple(factor * place for place in corner)
+    half = Fraction(1, 2)
+    return {
+        "a": tuple(place - half for place in corner),
+        "b": (factor * f, *(place - half for place in resized)),
+        "c": resized,
+    }

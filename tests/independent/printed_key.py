@@ -211,7 +211,7 @@ def _true(line: str, env: Mapping[str, float]) -> bool:
 def _python(formula: str, env: Mapping[str, float]) -> Any:
     """The value of a formula whose names may have primes."""
     values = {name.replace("'", "_prime"): value for name, value in env.items()}
-    return calculated(formula.replace("'", "_prime"), {"log2": math.log2, **values})
+    return calculated(formula.replace("'", "_prime"), {"log2": math.log2, "ln": math.log, **values})
 
 
 OTHERS: dict[str, Callable[[Any, Spec], bool]] = {

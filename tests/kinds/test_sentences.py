@@ -1,7 +1,7 @@
-"""What is suggested of sentences, beside what an examiner gave them: three tables of sentences.
+"""What is suggested of sentences, beside what an examiner gave them: four tables of sentences.
 
 ``given.toml`` was written by somebody who did not write the mark schemes, ``own_a.toml`` and
-``own_b.toml`` after they stood. A row is a sentence and its points, criterion by criterion.
+``own_b.toml`` after they stood, ``own_c.toml`` before they did. A row is a sentence and its points, criterion by criterion.
 """
 
 from __future__ import annotations
@@ -47,6 +47,30 @@ SCHEMES = {
         "gaussian-or-impulse-noise", 0, {}, ["gauss", "impulse", "mean-filter median"]),
     "why-the-pinhole-model": (
         "why-pinhole-model", 0, {}, ["collinear simple homogeneous basis"]),
+    "bare-sensor-and-pinhole": (
+        "bare-sensor-and-pinhole", 0, {"narrower": 0}, ["mixed", "one-ray", "price"]),
+    "three-primaries-and-night": (
+        "three-primaries-and-night", 0, {}, ["cones", "mixture", "rods"]),
+    "density-above-one": (
+        "density-above-one", 0, {"halved": 0}, ["density", "area", "trade"]),
+    "two-quantisations": (
+        "two-quantisations", 0, {}, ["spatial", "levels", "cure"]),
+    "compare-two-lens-defects": (
+        "compare-two-lens-defects", 0, {}, ["fringes", "corners", "cure"]),
+    "flat-field-in-words": (
+        "flat-field-in-words", 0, {}, ["white", "divide", "dark"]),
+    "why-the-red-car-is-blue": (
+        "why-the-red-car-is-blue", 0, {}, ["order", "grey", "mend"]),
+    "hue-of-grey": (
+        "hue-of-grey", 0, {}, ["undefined", "saturation", "unsteady"]),
+    "why-compare-in-lab": (
+        "why-compare-in-lab", 0, {}, ["distance", "rgb", "lightness"]),
+    "over-and-underexposed": (
+        "over-and-underexposed", 0, {}, ["full", "few", "scaled"]),
+    "equal-power-unequal-brightness": (
+        "equal-power-unequal-brightness", 0, {}, ["weight", "night"]),
+    "zoom-or-step-closer": (
+        "zoom-or-step-closer", 0, {}, ["depth", "zoom", "step"]),
 }  # fmt: skip
 """Template, part and drawn values of each question; criteria, those marked together in one name."""
 

@@ -13,6 +13,7 @@ from sweep import draws, together
 
 from quizgen.core.errors import BlueprintError
 from quizgen.kinds import KINDS
+from quizgen.paper import quota
 from quizgen.paper.blueprint import Blueprint, SlotRule, load_blueprint
 from quizgen.paper.paper import build_paper
 from quizgen.paper.quota import ROUND
@@ -68,6 +69,20 @@ def test_neighbours_share_no_more_than_is_allowed_and_use_every_template():
     used = Counter(name for paper in papers for name in paper)
     assert len(used) == 30
     assert max(used.values()) <= 4 * min(used.values())
+
+
+def test_a_round_is_kept_and_only_what_follows_is_chosen(empty_cache, monkeypatch):
+    """A paper late in its round is found again without those before it; of other demands, not."""
+    shelf = Shelf({f"{s}{n}": {} for s in "abcd" for n in range(4)})
+    asked = plan(*([f"{s}{n}" for n in range(4)] for s in "abcd"), shared=2,
+                 quota={"tier": {"A": (0, 99)}})  # fmt: skip
+    papers = [select_templates(shelf, asked, seed) for seed in range(40, 0, -1)][::-1]
+    assert len(list((empty_cache / "rounds").iterdir())) == 1
+    quota._open_round.cache_clear()
+    monkeypatch.setattr(quota._Round, "_make_paper", lambda _: pytest.fail("chosen again"))
+    assert [select_templates(shelf, asked, seed) for seed in range(30, 41)] == papers[29:]
+    with pytest.raises(pytest.fail.Exception):
+        select_templates(shelf, replace(asked, shared=1), 30)
 
 
 def test_what_tells_an_answer_gives_way_and_the_same_seed_gives_the_same():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 
 import pytest
@@ -13,7 +14,9 @@ from quizgen.bank.bank import builtin_bank
 from quizgen.bank.markdown import ListBlock, Paragraph
 from quizgen.bank.variant import draw_variant
 from quizgen.kinds.grade import grade_answer
+from quizgen.kinds.rubric import suggest_marks
 from quizgen.maths.constants import parse_exact
+from quizgen.maths.limits import find_limit
 from quizgen.maths.notation import parse_formula
 from quizgen.maths.numbers import format_for_key
 from quizgen.maths.scaling import scaling_exponent
@@ -24,6 +27,7 @@ from quizgen.question.levels import load_level
 from quizgen.question.levels.comparison import choose_comparison
 from quizgen.question.levels.consequence import choose_consequence, choose_way_back
 from quizgen.question.levels.error_spotting import choose_faulty_solution
+from quizgen.question.levels.limit import choose_limit
 from quizgen.question.levels.perturbations import Perturbations, askable_results
 
 CALCULATING = [
@@ -77,6 +81,62 @@ def test_the_way_back_brings_about_what_is_wanted_in_the_model(draws):
             assert near(after / solved(drawn)[target], wanted)
 
 
+def test_a_limit_is_what_the_model_comes_to_far_away(draws):
+    """A result that a quantity 10^30 times as large, or as small, does not move any more."""
+    for drawn in draws:
+        changes = Perturbations(drawn)
+        asked = choose_limit(changes, choose_consequence(changes))
+        if asked is None:
+            continue
+        far = sympy.Integer(10) ** (30 if asked.grows else -30)
+        before, after = (solved(drawn, **how)[asked.target] for how in ({}, {asked.given: far}))
+        spec = asked("en").spec
+        size = unit_factor(getattr(spec, "unit", ""))
+        key = sympy.Rational(format_for_key(parse_exact(spec.value) * size))
+        assert abs(after - key) < sympy.Float("1e-12") * abs(before - key)
+        for lang in ("en", "bn"):
+            assert all(mistake.shown for mistake in asked(lang).solved.mistakes)
+
+
+def test_some_limits_by_hand():
+    """Far away a thing is as small as nothing, and behind the lens at the focus."""
+    lens = draw_variant(builtin_bank().template("thin-lens-image-distance"), 3)
+    steps = {step.name: step.expr for step in lens.template.chain.steps}
+    focus = find_limit("z'", "z", steps, lens.values, grows=True)
+    assert focus == lens.values["f"]
+    assert find_limit("m", "z", steps, lens.values, grows=True) == 0
+    assert find_limit("z'", "z", steps, lens.values, grows=False) == 0  # 1/q, q without bound
+    assert find_limit("q", "z", steps, lens.values, grows=False) is None
+
+
+@together(
+    ("formula", "grows", "limit"),
+    [
+        ("x/(x + 3)", True, "1"), ("x/(x + 3)", False, "0"), ("(2*x^2 - 1)/(x^2 + x)", True, "2"),
+        ("(x + 1)^3/x^3", True, "1"), ("x^-2 + 5", True, "5"), ("x^2/x", False, "0"),
+        ("1/x", False, None), ("x + 1", True, None), ("sqrt(x)/x", True, None),
+        ("abs(x)/x", True, None), ("3/(x - x)", True, None), ("(x^2 - x^2)/x", False, "0"),
+    ],
+)  # fmt: skip
+def test_a_limit_is_that_of_the_leading_terms(formula, grows, limit):
+    found = find_limit("y", "x", {"y": parse_formula(formula)}, {}, grows=grows)
+    assert found == (None if limit is None else parse_exact(limit))
+
+
+def test_a_wrong_step_is_named_and_mended_in_words():
+    """Whoever copies the scheme's sentences meets both criteria; another step is not found."""
+    for seed in range(6):
+        drawn = draw_variant(builtin_bank().template("weak-perspective-scale-error"), seed)
+        part = choose_faulty_solution(drawn, written=True)("en")
+        idea = {line.name: inlines_to_text(line.idea) for line in part.solved.scheme}
+        step = re.search(r"\d", idea["step"])[0]
+        assert {
+            one.status for one in suggest_marks(part.spec, " ".join(idea.values())).findings
+        } == {"found"}
+        other = suggest_marks(part.spec, f"Step {int(step) % 4 + 1} is wrong.").findings
+        assert [one.status for one in other] == ["missing", "missing"]
+
+
 def test_of_two_changes_the_model_moves_the_same_one_further(draws):
     for drawn in draws:
         changes = Perturbations(drawn)
@@ -119,6 +179,9 @@ def test_every_option_is_answered_and_every_mistake_named(draws, lang):
             continue
         question, key = compose_variant(drawn, lang, level="transfer", figures=False)
         for part, solution, spec in zip(question.parts, key.solution.parts, key.specs, strict=True):
+            if solution.scheme:
+                assert sum(line.points for line in solution.scheme) == part.points
+                continue
             assert grade_answer(spec, solution.answer, lang=lang, decimal="point").credit == 1
             for letter, _ in part.field.options:
                 verdict = grade_answer(spec, letter, lang=lang)

@@ -9,7 +9,7 @@ import pikepdf
 import pytest
 
 from quizgen.question.formula_sheet import compose_sheet
-from quizgen.render import RENDERERS, render_sheet
+from quizgen.render import SHEET_FORMATS, render_sheet
 
 INVENTORY = [f"F{n:02}" for n in range(1, 47)]
 NAMESPACE = "{http://www.w3.org/1999/xhtml}"
@@ -24,7 +24,7 @@ def choice(request):
 @pytest.fixture(scope="module")
 def made(bank, choice):
     found = compose_sheet(bank, choice)
-    return found, {output: render_sheet(found, output) for output in RENDERERS}
+    return found, {output: render_sheet(found, output) for output in SHEET_FORMATS}
 
 
 def count(found):
@@ -74,7 +74,7 @@ def test_the_pdf_is_short_enough_to_be_printed(made, choice):
 def test_the_same_sheet_is_the_same_bytes(bank):
     again = [
         render_sheet(compose_sheet(bank, "bn", ["eye"]), name)
-        for name in RENDERERS
+        for name in SHEET_FORMATS
         for _ in range(2)
     ]
     assert again[0] == again[1]

@@ -139,6 +139,49 @@ ROADS: dict[str, list[tuple[int, str, float | None]]] = {
         (0, "M = L\na_1 = a_3 = 0\nL = 1 + a_2 r²", 3),
         (0, "L - M = 0\nL = 1+a_2 r^2", 2),
     ],
+    "derive-width-of-gaussian": [
+        (0, "exp(-x^2/(2 sigma^2)) = 1/2\n-x^2/(2 sigma^2) = ln(1/2)\nx = sigma sqrt(2 ln 2)", 4),
+        (0, "e^(-x²/(2σ²)) = 0.5\nx² = -2σ² ln 0.5\nx = 1.177 σ", 4),
+        (0, "x = sigma*sqrt(ln 2)", 0),
+        (1, "w = 2*1.177*2 = 4.71", 1),
+        (1, "w = 2.35", 0),
+    ],
+    "show-radial-line-stays-straight": [
+        (0, "r² = 1.25 x²\nx' = x(1+k_1 r²)\ny' = 0.5 x (1+k_1 r²)\ny' = 0.5 x'", 3),
+        (0, "y'/x' = y/x = 1/2\ny' = x'/2", 3),
+        (0, "y' = 0.5x", 0),
+    ],
+    "derive-distance-from-two-pictures": [
+        (0, "h_1 = fY/Z\nh_2 = fY/(Z+d)\nh_1/h_2 = 1 + d/Z\nZ = d/(h_1/h_2 - 1)", 4),
+        (0, "fY = h_1 Z = h_2 (Z+d)\nZ(h_1-h_2) = h_2 d\nZ = h_2 d/(h_1-h_2)", 4),
+        (1, "Z = 12", 1),
+        (1, "Z = 16", 0),
+    ],
+    "derive-dolly-zoom": [
+        (0, "h_1 = f Y/Z\nh_2 = f_2 Y/(2Z)\nh_1 = h_2\nf_2 = 2f", 3),
+        (0, "f_2/(2Z) = f/Z\nf_2 = 2 f", 3),
+        (0, "f_2 = f/2", 0),
+        (1, "w_1 = f W/(5Z)\nw_2 = f_2 W/(6Z)\nm = 10/6", 2),
+        (1, "m = 2", 0),
+    ],
+    "derive-flat-field": [
+        (0, "W - D = v L_0\n(R-D)/(W-D) = L/L_0\nL = L_0 (R-D)/(W-D)", 4),
+        (0, "v = (W-D)/L_0\nL = (R-D)/v\nL = L_0 (R-D)/(W-D)", 4),
+        (0, "L = L_0 R/W", 0),
+    ],
+    "show-saturation-under-light": [
+        (0, "S = (M-m)/M\nS' = (kM - km)/(kM) = k(M-m)/(kM)\nS' = S", 3),
+        (0, "S = 1 - m/M\nS' = 1 - km/(kM) = 1 - m/M = S", 3),
+    ],
+    "derive-noise-of-a-mean": [
+        (0, "V = n σ²\ns = sqrt(V)/n = sqrt(n) σ/n\ns = σ/√n", 4),
+        (0, "V = n^2 sigma^2\ns = sqrt(V)/n = sigma", 2),
+        (1, "n = 16", 1),
+    ],
+    "derive-quantisation-error": [
+        (0, "n = 2^b\nd = A/(2^b-1)\ne = d/2 = A/(2(2^b-1))", 4),
+        (0, "n = 2^b\nd = A/n\ne = d/2\ne = A/2^(b+1)", 3),
+    ],
 }
 """Template to part, what is typed, and its points."""
 

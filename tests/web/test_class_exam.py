@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import csv
+import hashlib
+import plistlib
 import re
 import time
 from dataclasses import replace
@@ -24,13 +26,16 @@ from click.testing import CliRunner
 from people import ADDRESS
 from starlette.testclient import TestClient
 
-from quizgen.classes.admission import write_admission_cards
+from quizgen.classes.admission import write_admission_files
+from quizgen.classes.analysis_page import write_analysis_page
 from quizgen.classes.class_folder import ClassFolder, format_settings
 from quizgen.classes.exam_details import read_exam_details
 from quizgen.classes.grading_history import GradingHistory
 from quizgen.classes.grading_run import grade_class
+from quizgen.classes.safe_exam_browser import read_config_key
 from quizgen.classes.seats import DATABASE, RECORD, entry_code, normalise_entry_code
 from quizgen.classes.statuses import read_statuses
+from quizgen.classes.template_history import write_template_history
 from quizgen.cli.main import root_group
 from quizgen.core.errors import ClassError
 from quizgen.core.executor import InlineExecutor
@@ -132,6 +137,31 @@ def test_marks_are_those_of_typed_answers(opened):
         who: [*exam.form(one)["answers"]] for who, one in ((one.id, one) for one in STUDENTS[:2])
     } == {who: [*one] for who, one in typed.items()}
     assert marks[RAHIMA.id].minutes is not None
+
+
+def test_times_of_questions_are_analysed(opened):
+    exam = opened(OPEN)
+    times = {ADA.id: 90, JOERG.id: 150}
+    for who in (ADA, JOERG):
+        student, at = exam.begun(who)
+        exam.later += 170
+        sent = {
+            "token": student.token,
+            "on-1": "",
+            "a-1": ["1", "2"],
+            "spent-1": str(times[who.id]),
+        }
+        student.browser.post(at, data=sent, headers={"accept": "application/json"})
+        student.post(at, do="hand-in")
+    exam.store()
+    assert exam.form(ADA)["seconds"] == {"1": 90}
+    assert grade_class(exam.folder, InlineExecutor(), 1).problems == ()
+    _, page = write_analysis_page(exam.folder)
+    assert "Minutes for the question (median)" in page.read_text("utf-8")
+    write_template_history(exam.folder, [])
+    for table in ("items.csv", "templates.csv"):
+        with (page.parent / table).open(encoding="utf-8-sig") as stream:
+            assert {row["minutes"] for row in csv.DictReader(stream)} == {"2", ""}
 
 
 def test_each_has_the_own_paper_in_the_own_language(opened):
@@ -261,6 +291,22 @@ def test_a_server_that_was_killed_goes_on_where_it_was(opened, tmp_path, monkeyp
     assert "You have handed in" in joerg.get("/seat").text
 
 
+def test_what_to_look_at_outlives_the_server(opened):
+    exam = opened(OPEN)
+    exam.begun(ADA)
+    elsewhere = exam.student(ADA, client="10.0.0.99")
+    assert elsewhere.enter().status_code == 403
+    after = opened(folder=exam.folder)
+    watcher = after.watcher("Weber 2")
+    page = watcher.get(f"/live/{after.number(ADA)}").text
+    assert "10.0.0.99" in page
+    assert page.count("10.0.0.99") == 1
+    with (exam.folder.path / RECORD).open(encoding="utf-8") as stream:
+        said = [(row["student"], row["more"]) for row in csv.DictReader(stream)
+                if row["what"] == "code tried again"]  # fmt: skip
+    assert said == [(ADA.id, "10.0.0.99")]
+
+
 def test_papers_that_were_made_outlive_a_changed_bank(opened, monkeypatch):
     exam = opened(OPEN)
     _, at = exam.begun(ADA)
@@ -291,6 +337,7 @@ def test_a_database_of_another_class_is_refused(opened, tmp_path):
     [("[browser]\nbegins = 2027-02-12T10:00:00\nends = 2027-02-12T09:00:00", "before it begins"),
      ("[browser]\nminutes = 0", "browser.minutes"),
      ('[browser]\nconfig_keys = ["abc"]', "64 hexadecimal digits"),
+     ('[browser]\nquit_password = "x"', "quit_password: is for safe_exam_browser"),
      ("[browser]\nstarts = 2027-02-12T10:00:00", "starts")],
 )  # fmt: skip
 def test_what_cannot_be_meant_is_named_with_its_file(tmp_path, about, wrong):
@@ -312,7 +359,7 @@ def test_codes_are_read_as_people_type_them():
 def test_cards_have_every_code_and_the_address(tmp_path):
     pikepdf = pytest.importorskip("pikepdf")
     folder = make_class(tmp_path)
-    path = write_admission_cards(folder, "https://exam.school.example", "en")
+    (path,) = write_admission_files(folder, "https://exam.school.example", "en")
     with pikepdf.open(path) as found:
         assert len(found.pages) == 1
     assert path.stat().st_mode & 0o077 == 0
@@ -320,3 +367,58 @@ def test_cards_have_every_code_and_the_address(tmp_path):
     done = CliRunner().invoke(root_group, wrong)
     assert done.exit_code == 2
     assert "begins with http" in done.output
+
+
+SEB = OPEN + 'safe_exam_browser = true\nquit_password = "let me out"\n'
+
+
+def seb_settings() -> str:
+    """The settings as the page on Config Keys of the makers of the browser writes them: JSON, by hand."""
+    password = hashlib.sha256(b"let me out").hexdigest()
+    return (
+        '{"allowBrowsingBackForward":false,"allowQuit":true,"allowSpellCheck":false,'
+        '"browserWindowAllowReload":true,"examSessionClearCookiesOnEnd":true,'
+        f'"examSessionClearCookiesOnStart":true,"hashedQuitPassword":"{password}",'
+        f'"quitURL":"{ADDRESS}/seat/end","quitURLConfirm":false,"sebConfigPurpose":0,'
+        '"sendBrowserExamKey":true,"showReloadButton":true,"showTime":true,'
+        f'"startURL":"{ADDRESS}/"}}'
+    )
+
+
+def test_the_settings_file_lets_in_whom_it_locks_in(opened, tmp_path):
+    folder = make_class(tmp_path, SEB)
+    with pytest.raises(ClassError, match=r"exam\.seb: is not there yet"):
+        create_app(exam_settings(folder))
+    _, path = write_admission_files(folder, ADDRESS, "en")
+    assert path.stat().st_mode & 0o077 == 0
+    exam = opened(folder=folder)
+    ada = exam.student(ADA)
+    page = ada.browser.get("/")
+    assert page.status_code == 403
+    assert 'href="seb://' in page.text
+    assert plistlib.loads(ada.browser.get("/exam.seb").content)["startURL"] == f"{ADDRESS}/"
+    key = hashlib.sha256(seb_settings().encode()).hexdigest()
+
+    def proof(place: str) -> dict[str, str]:
+        hashed = hashlib.sha256(f"{ADDRESS}{place}{key}".encode()).hexdigest()
+        return {"x-safeexambrowser-configkeyhash": hashed}
+
+    assert "The code on your card" in ada.browser.get("/", headers=proof("/")).text
+    assert ada.browser.get("/seat", headers=proof("/")).status_code == 403, "of another address"
+    assert ada.browser.post("/", headers=proof("/live")).status_code == 403
+    exam.watcher().get("/live")  # in any browser
+
+
+def test_an_unlocked_settings_file_has_another_key(tmp_path):
+    folder = make_class(tmp_path, SEB)
+    _, path = write_admission_files(folder, ADDRESS, "en")
+    before = read_config_key(path)
+    path.write_bytes(path.read_bytes().replace(b"<false/>", b"<true/>", 1))
+    assert read_config_key(path) != before
+    path.write_bytes(b"pswd" + path.read_bytes())
+    with pytest.raises(ClassError, match="changed by another program"):
+        read_config_key(path)
+
+
+def test_without_the_browser_there_is_no_settings_file(opened):
+    assert opened(OPEN).student(ADA).browser.get("/exam.seb").status_code == 404

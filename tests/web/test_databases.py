@@ -112,7 +112,7 @@ def test_every_release_comes_up_with_what_it_keeps(database, release):
     assert (sitting.limit, sitting.pauses) == (60.0, True)
     assert store.sittings.answers(sitting) == {"1a": ["৩", ""]}
     assert store.sittings.flags(sitting) == {"2"}
-    assert store.shared_value("token", "other") == "secret"
+    assert store.shared.settle("token", "other") == "secret"
     assert store.cards.all(7)["template", "C1"].stability == 2.5
     assert store.accounts.password_hash_of("ME7") == (7, "$argon2id$x")
     assert store.accounts.signed_in("token").manages
@@ -143,7 +143,7 @@ def test_servers_that_begin_at_once_make_the_tables_once(database):
     with ThreadPoolExecutor(4) as threads:
         stores = list(threads.map(Store, [address] * 4))
         assert len({store.learner().id for store in stores}) == 1
-        assert len(set(threads.map(lambda s: s.shared_value("token", str(id(s))), stores))) == 1
+        assert len(set(threads.map(lambda s: s.shared.settle("token", str(id(s))), stores))) == 1
     for store in stores:
         store.close()
 

@@ -95,3 +95,50 @@ def test_a_terminal_reads_lines_until_an_empty_one(bank, tmp_path, monkeypatch):
     assert "Line 1: Think of the other carts." in done.output
     assert "Hint: The force moves all of them." in done.output
     assert "Answer: F = " in done.output
+
+
+def read_back(client, road, token, field, typed):
+    """The lines as they are read back while they are written: class, text and what is said."""
+    page = client.post(road, data={"token": token, field: typed}).text
+    row = r'<li class="(\w*)">.*?<span class="typed">([^<]*)</span> <span class="quiet">([^<]*)</span>'
+    return re.findall(row, page, re.DOTALL)
+
+
+def test_each_finished_line_is_read_and_judged_as_one_writes(client):
+    store = client.app.state.site.store
+    question = f"/q/{store.start_attempt(store.learner().id, QuestionRef('train', '3'), {}).id}"
+    client.get(question)
+    token = csrf_token(client.cookies[COOKIE])
+
+    def read(typed):
+        return read_back(client, f"{question}/1/read", token, "a", typed)
+
+    number = re.search(r"pulls (\d) carts", client.get(question).text)[1]
+    early = "not told yet: first write what leads to it"
+    # Right or wrong, the goal cannot be found by trying.
+    for goal in (f"a = F/({number} m)", "a = F/m", "a = m/F"):
+        ((sign, _, said),) = read(goal)
+        assert (sign, said) == ("ambiguous", early)
+    law = f"F = {number} m a"
+    assert [(sign, said) for sign, _, said in read(f"{law}\na = F/({number} m)\na = F/m\n")] == [
+        ("correct", "right"), ("correct", "right"), ("wrong", "not right"),
+    ]  # fmt: skip
+    assert [sign for sign, _, _ in read("F = m a\na = F/m")] == ["wrong", "partial"]
+    signs = read(f"{law}\ncarts move\na = F/(\nF = {law[4:]}")
+    assert [(sign, text) for sign, text, _ in signs[1:]] == [
+        ("ambiguous", "carts move"), ("unreadable", "a = F/("), ("correct", f"F = {number}·m·a"),
+    ]  # fmt: skip
+    assert read("") == []
+    page = client.get(question).text
+    assert "Tries left" not in page, "reading is no try"
+    assert "Think of the other carts" not in page
+
+
+def test_in_an_exam_lines_are_read_back_and_not_judged(client):
+    token = csrf_token(client.cookies[COOKIE])
+    sent = {"token": token, "minutes": "30", "blueprint": "force"}
+    exam = client.post("/exam", data=sent)
+    found = re.search(r'hx-post="(/exam/[\w-]+/read/([\w.]+))" hx-trigger="quizgen:row"', exam.text)
+    lines = read_back(client, found[1], token, f"a-{found[2]}", "F = 9 m a\na = F/(\n")
+    assert [line[:2] for line in lines] == [("ambiguous", "F = 9·m·a"), ("unreadable", "a = F/(")]
+    assert lines[0][2] == ""

@@ -325,3 +325,65 @@ def test_what_is_matched_is_named_in_its_list(practised):
     options = page.locator("section.part select").first.locator("option").all_inner_texts()
     told = page.locator("section.part").first.locator(".targets li").all_inner_texts()
     assert [one.partition(". ")[2].strip() for one in options[1:]] == [one.strip() for one in told]
+
+
+@pytest.mark.slow
+def test_keys_write_a_formula_that_is_typeset_below(practised, barriers):
+    page = practised("photon-snr-formula-and-model")
+    field, keys = page.locator("section.part input[type=text]"), page.locator(".keys button")
+    assert [key.get_attribute("data-put") for key in keys.all()][:2] == ["N", "(|)/()"]
+    keys.and_(page.get_by_label("square root")).click()
+    expect(field).to_be_focused()
+    keys.first.click()
+    expect(field).to_have_value("sqrt(N)")
+    field.select_text()
+    page.get_by_role(BUTTON, name="fraction").press("Enter")
+    page.keyboard.type("2")
+    expect(field).to_have_value("(sqrt(N))/(2)")
+    expect(page.locator(".read mfrac msqrt")).to_be_visible()
+    assert barriers(page) == []
+
+
+@pytest.mark.slow
+def test_keys_write_a_formula_in_firefox_too(driver, served, tmp_path):
+    from firefox import firefox
+    from needed import installed
+
+    program = installed("Firefox", "firefox-esr", "firefox")
+    with firefox(program, tmp_path, "light")(driver) as browser:
+        page = browser.new_page()
+        page.goto(served.entrance)
+        sent = {"token": page.locator("[name=token]").first.input_value(),
+                "template": "photon-snr-formula-and-model"}  # fmt: skip
+        page.goto(page.request.post(served.address + "/practice", form=sent).url)
+        page.get_by_label("square root").click()
+        page.locator(".keys button").first.click()
+        expect(page.locator("section.part input[type=text]")).to_have_value("sqrt(N)")
+        expect(page.locator(".read msqrt")).to_be_visible()
+
+
+def test_boxes_are_labelled_by_what_they_ask(practised):
+    page = practised("hsv-edit-from-pictures")
+    labels = page.locator(".box label").all_text_contents()
+    assert [one.split() for one in labels] == [["(1)", "V"], ["(2)", "S"], ["(3)", "H"]]
+
+
+def test_a_derivation_is_read_line_by_line_as_it_is_written(practised):
+    """By keyboard alone: Enter ends a line, Tab the last; what is said moves no focus."""
+    page = practised("derive-perspective-projection")
+    field = page.locator("textarea[data-rows]").first
+    read = page.locator(".read li")
+    field.focus()
+    page.keyboard.type("0 = 1\n")
+    expect(read).to_have_count(1)
+    expect(read.first).to_have_class("wrong")
+    expect(field).to_be_focused()
+    page.keyboard.type("1 = 1")
+    expect(read).to_have_count(1)
+    page.keyboard.press("Tab")
+    expect(read).to_have_count(2)
+    expect(read.nth(1)).to_have_class("correct")
+    expect(page.locator(".verdict")).to_have_count(0)
+    page.get_by_role(BUTTON, name="Check").click()
+    expect(page.locator(".verdict .judged li")).to_have_count(2)
+    expect(read).to_have_count(0)

@@ -341,3 +341,19 @@ def test_results_say_what_each_question_cost_in_points_and_time(client, token, e
     assert lost == sorted(lost, reverse=True)
     assert sum(lost) == 10
     assert done.count('class="lost"') == len(numbers), "what was left empty stands in one line"
+
+
+def test_a_decimal_sign_is_declared_in_an_exam_and_kept(client, token, exam, app):
+    store = app.state.site.store
+    at, page = exam()
+    assert 'value="comma" formnovalidate aria-pressed="false"' in page
+    told = client.post(at, data={"token": token, "do": "comma"})
+    assert told.url.path == at
+    assert 'value="comma" formnovalidate aria-pressed="true"' in told.text
+    sitting = store.sittings.find(store.learner().id, at.rpartition("/")[2])
+    assert sitting.decimal == "comma"
+    assert store.learner().settings["decimal"] == "comma", "remembered for what comes next"
+    client.post(at, data={"token": token, "do": "hand-in"})
+    store.sittings.declare_decimal(sitting, "point")
+    kept = store.sittings.find(store.learner().id, sitting.id)
+    assert kept.decimal == "comma", "what was handed in is marked as it was read"

@@ -27,10 +27,17 @@ for (const row of rows) {
   });
   row.querySelector("button").addEventListener("click", () => { input.value = ""; keep(row, ""); next(row); });
 }
+// Whose page a picture without a code is, as a row of the same table.
+const taken = [...document.querySelectorAll(".assign, .back")];
+const saidOf = box => {
+  const [whose, page] = box.querySelectorAll("input");
+  if (!page) return whose.checked ? ["", "page", box.dataset.picture] : null;
+  return whose.value.trim() && page.value ? [whose.value.trim(), `page ${page.value}`, box.dataset.picture] : null;
+};
 const cell = text => `"${(/^[=+@\-\t]/.test(text) ? "'" : "") + text.replaceAll('"', '""')}"`;
 document.getElementById("save")?.addEventListener("click", () => {
   const table = rows.filter(row => name(row) in known).map(row => [row.dataset.id, row.dataset.part, known[name(row)]]);
-  const text = [["id", "part", "answer"], ...table].map(row => row.map(cell).join(",")).join("\n") + "\n";
+  const text = [["id", "part", "answer"], ...taken.map(saidOf).filter(Boolean), ...table].map(row => row.map(cell).join(",")).join("\n") + "\n";
   const link = document.createElement("a");
   link.href = URL.createObjectURL(new Blob(["\ufeff" + text], {type: "text/csv"}));
   link.download = "typed.csv";

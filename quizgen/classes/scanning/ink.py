@@ -136,9 +136,12 @@ def _bound_pixels(field: SheetField, more: float, scale: float) -> tuple[int, in
 def read_boxes(
     page: NDArray[np.uint8], boxes: Sequence[SheetField], frames: PlacedFrames, ink: InkMap
 ) -> list[BoxReading]:
-    """Return what is in each box of a page."""
+    """Return what is in each box of a page: the first of the frames."""
+    if not boxes:
+        return []
     cuts = [
-        _cut_inside(page, box, middle) for box, middle in zip(boxes, frames.middles, strict=True)
+        _cut_inside(page, box, middle)
+        for box, middle in zip(boxes, frames.middles[: len(boxes)], strict=True)
     ]
     means = np.array([cut.mean() for cut in cuts])
     base = float(np.median(means[means <= np.median(means)]))

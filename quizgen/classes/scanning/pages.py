@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import msgspec
 import numpy as np
 
-from quizgen.classes.class_folder import SHEETS, ClassFolder
+from quizgen.classes.class_folder import PAPERS, SHEETS, ClassFolder
 from quizgen.classes.roster import RosterStudent
 from quizgen.classes.scanning.ink import (
     CROSSED,
@@ -44,13 +44,14 @@ from quizgen.classes.scanning.registration import (
     find_homography,
     find_marks,
     flatten_paper,
+    pick_anchors,
     place_frames,
     straighten_page,
 )
 from quizgen.classes.sheet_codes import SheetIndex
 from quizgen.core.decoding import json_decoder
 from quizgen.core.errors import ClassError
-from quizgen.render.answer_sheet import SheetField, SheetPlaces
+from quizgen.render.answer_sheet import PAPER_VERSION, SheetField, SheetPlaces
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -74,8 +75,9 @@ LABEL = 11.0
 """Millimetres left of the fields that the name of the part takes."""
 PAGE = "page"
 """Stands for a part in what the picture of the whole page is called."""
-WHOLE, THUMB = 4.0, 1000
-"""Pixels a millimetre of a page's picture, and of the longer side of one that is of no sheet."""
+WHOLE, THUMB, KEPT = 4.0, 1000, 2400
+"""Pixels a millimetre of a page's picture; of the longer side of one that is of no sheet; and of
+one without a code, which a person may assign to a page, so that it is read after all."""
 
 
 class PartReading(msgspec.Struct, frozen=True, omit_defaults=True):
@@ -129,6 +131,9 @@ class PageReading(msgspec.Struct, frozen=True, omit_defaults=True):
         Boxes on the page, and how many of them were not read.
     copy : int
         1 if no sound picture of this page of this sheet came before.
+    assigned : str
+        When a person said whose page it is, or that it is of nobody after all. All earlier lines
+        of the picture are void then.
     """
 
     file: str
@@ -143,6 +148,7 @@ class PageReading(msgspec.Struct, frozen=True, omit_defaults=True):
     boxes: int = 0
     doubtful: int = 0
     copy: int = 1
+    assigned: str = ""
 
 
 @dataclass(frozen=True)
@@ -233,7 +239,7 @@ def read_student_sheet(path: Path, at: int) -> StudentSheet:
             raise ClassError(f"{path}: byte {at}: {error}") from None
     if found.sheet is None:
         raise ClassError(
-            f"{path.parent}: has no answer sheets to read (quizgen class make --sheet)"
+            f"{path.parent}: has no papers or sheets to read (quizgen class make --scan, --sheet)"
         )
     kinds = {part.id: part.spec.kind for one in found.key.questions for part in one.parts}
     return StudentSheet(found.sheet, kinds)
@@ -261,6 +267,21 @@ def read_job(job: ReadingJob) -> list[ReadPicture]:
         else:
             found += _read_picture(picture, index, base)
     return found
+
+
+def read_assigned_picture(folder: ClassFolder, base: PageReading, path: Path) -> ReadPicture:
+    """Return what a picture that was kept shows, as the page of a student that a person says it is.
+
+    Raises
+    ------
+    ScanFileError
+        If the picture cannot be read any more.
+    """
+    _, picture = next(iter_pictures(path, (0,)))
+    if isinstance(picture, ScanFileError):
+        raise picture
+    _, at = folder.places()[base.student]
+    return _SheetReader(folder, base, at).read(picture, None, find_marks(picture.grey))
 
 
 def _read_picture(
@@ -327,7 +348,8 @@ def _describe_stray_picture(
         dark = float((inside < 170).mean())
         fault = NO_CODE if marks or dark > INKY else EMPTY_PAGE
     said = codes[0].text[:80] if codes else ""
-    kept = {} if fault == EMPTY_PAGE else {PAGE: _encode_small_picture(grey)}
+    longest = KEPT if fault == NO_CODE else THUMB
+    kept = {} if fault == EMPTY_PAGE else {PAGE: _encode_small_picture(grey, longest)}
     return ReadPicture(msgspec.structs.replace(base, fault=fault, said=said), kept)
 
 
@@ -347,11 +369,12 @@ class _SheetReader:
         self.folder, self.base = folder, base
         self.sheet = read_student_sheet(folder.path / "keys.jsonl", at)
         fields = self.sheet.places.fields
-        self.fields = [one for one in fields if one.page == base.page]
+        self.fields = [one for one in fields if one.page == base.page and one.kind != "points"]
+        self.is_paper = self.sheet.places.version == PAPER_VERSION
         self.boxes = [one for one in self.fields if one.kind == "box"]
 
     def read(
-        self, picture: ScannedPicture, code: SheetCode, marks: Sequence[FoundMark]
+        self, picture: ScannedPicture, code: SheetCode | None, marks: Sequence[FoundMark]
     ) -> ReadPicture:
         """Return what the sheet says, and its pictures."""
         places = self.sheet.places
@@ -360,7 +383,9 @@ class _SheetReader:
             return self._ask_unstraightened(picture.grey)
         page = straighten_page(picture.grey, places, homography)
         blank = self._draw_blank()
-        frames = place_frames(page, blank, self.boxes) if self.boxes else None
+        anchors = pick_anchors(blank, self.fields) if self.is_paper else []
+        placed = (*self.boxes, *anchors)
+        frames = place_frames(page, blank, placed) if placed else None
         shift = frames.shift if frames else np.zeros((1, 2), np.float32)
         ink = map_ink(page, blank, self.fields, shift)
         fault = self._find_fault(picture, homography, frames.likeness if frames else 1.0, ink)
@@ -386,7 +411,8 @@ class _SheetReader:
 
         Raises ``ScanFileError`` if its file is not there or damaged.
         """
-        path = self.folder.path / SHEETS / f"{RosterStudent(self.base.student).file}.pdf"
+        kind = PAPERS if self.is_paper else SHEETS
+        path = self.folder.path / kind / f"{RosterStudent(self.base.student).file}.pdf"
         try:
             with open_pdf(path) as document:
                 return draw_blank_page(document[self.base.page - 1])
@@ -425,7 +451,8 @@ class _SheetReader:
             self.base, fault=CROOKED, parts=parts,
             boxes=len(self.boxes), doubtful=len(self.boxes),
         )  # fmt: skip
-        return ReadPicture(made, {PAGE: _encode_small_picture(grey)})
+        whole = _encode_picture(_shrink_picture(grey, THUMB), ".png", PNG)
+        return ReadPicture(made, {PAGE: _encode_small_picture(grey), **dict.fromkeys(parts, whole)})
 
     def _group_fields(self) -> dict[str, list[SheetField]]:
         """Return the fields of each part on the page."""
@@ -440,16 +467,19 @@ class _SheetReader:
         """Yield what was read of each part."""
         for part, fields in self._group_fields().items():
             place = self.base.page, _bound_fields(fields)
-            if fields[0].kind == "box":
-                way = _find_way(fields, self.sheet.kinds.get(part, ""))
-                answer, why = _join_crosses(fields, [read[one] for one in fields], way)
-                sure = min(read[one].confidence for one in fields)
+            boxes = [one for one in fields if one.kind == "box"]
+            if boxes:
+                way = _find_way(boxes, self.sheet.kinds.get(part, ""))
+                answer, why = _join_crosses(boxes, [read[one] for one in boxes], way)
+                sure = min(read[one].confidence for one in boxes)
                 asked = fault or why
             else:
                 answer, sure, asked = "", 1.0, fault
-                if any(is_written_on(one, ink) for one in fields):
-                    answer, asked = "", asked or WRITTEN
-                elif has_loose_ink(fields, ink):
+                room = [one for one in fields if one.kind == "room"]
+                lines = [one for one in fields if one.kind == "line"]
+                if any(is_written_on(one, ink) for one in lines):
+                    asked = asked or WRITTEN
+                elif has_loose_ink(lines, ink) or any(is_written_on(one, ink) for one in room):
                     asked = asked or BESIDE
             if asked:
                 yield part, PartReading(None, 0.0, *place, asked, "" if fault else answer)
@@ -493,9 +523,11 @@ def _cut_part(page: NDArray[np.uint8], box: tuple[float, float, float, float]) -
     right, bottom = round((x + w + 2 * CROP) * SHARP), round((y + h + CROP) * SHARP)
     cut = cv2.resize(page[top:bottom, left:right], None, fx=0.75, fy=0.75,
                      interpolation=cv2.INTER_AREA)  # fmt: skip
-    return _encode_picture((cut & 0xF0) | (cut >> 4), ".png", (cv2.IMWRITE_PNG_COMPRESSION, 6))
+    return _encode_picture((cut & 0xF0) | (cut >> 4), ".png", PNG)
 
 
+PNG = (16, 6)
+"""OpenCV's number of the compression of PNG, and how much."""
 COLOURS = {CROSSED: (60, 150, 20), WITHDRAWN: (160, 120, 120), DOUBTFUL: (0, 90, 230)}
 """Blue, green and red of the frame around a box that is not empty."""
 
@@ -528,13 +560,19 @@ def _draw_readings(
     return _encode_picture(shown, ".jpg", (cv2.IMWRITE_JPEG_QUALITY, 60))
 
 
-def _encode_small_picture(grey: NDArray[np.uint8]) -> bytes:
+def _encode_small_picture(grey: NDArray[np.uint8], longest: int = THUMB) -> bytes:
     """Return a picture of a scanner, made small, as JPEG."""
     import cv2
 
-    scale = min(1.0, THUMB / max(grey.shape))
-    small = cv2.resize(grey, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
-    return _encode_picture(small, ".jpg", (cv2.IMWRITE_JPEG_QUALITY, 60))
+    return _encode_picture(_shrink_picture(grey, longest), ".jpg", (cv2.IMWRITE_JPEG_QUALITY, 60))
+
+
+def _shrink_picture(grey: NDArray[np.uint8], longest: int) -> NDArray[np.uint8]:
+    """Return a picture whose longer side has no more than so many pixels."""
+    import cv2
+
+    scale = min(1.0, longest / max(grey.shape))
+    return cv2.resize(grey, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
 
 
 def _encode_picture(image: NDArray[np.uint8], suffix: str, how: tuple[int, int]) -> bytes:

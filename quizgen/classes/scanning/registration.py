@@ -7,22 +7,29 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from quizgen.classes.scanning.pictures import SHARP
+from quizgen.render.answer_sheet import SheetField
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from quizgen.render.answer_sheet import SheetField, SheetPlaces
+    from quizgen.render.answer_sheet import SheetPlaces
 
 FOUND_AT = 1800
 """Pixels of the longer side at which marks are looked for."""
 STRAY = 0.3
 """How far from where the code says a mark may be, as a share of their distance."""
 FEWEST_MARKS = 2
+ANCHOR, EDGE, CELLS = (6.0, 4.0), 16.0, (6, 10)
+"""Width and height of a place of print, how far it is from the edge of the page at least, and in
+how many parts across and down one is looked for."""
+FAINT = 0.05
+"""Share of the strongest place of print that another has at least."""
 REACH = 8
 """Pixels that a frame may be off after straightening by four marks: a millimetre."""
 TRUSTED, OFF = 0.75, 4.0
@@ -196,6 +203,38 @@ def flatten_paper(page: NDArray[np.uint8]) -> NDArray[np.uint8]:
     paper = cv2.GaussianBlur(paper, (0, 0), 2.5)
     whole = cv2.resize(paper, page.shape[::-1], interpolation=cv2.INTER_LINEAR)
     return cv2.divide(page, cv2.max(whole, 40), scale=250)
+
+
+def pick_anchors(blank: NDArray[np.uint8], fields: Sequence[SheetField]) -> list[SheetField]:
+    """Return places of print on a page that lie still on paper: one in each part of the page.
+
+    Print with corners, where nobody is to write: by it a page without boxes is straightened, too.
+    """
+    import cv2
+
+    scale = 0.25
+    small = cv2.resize(blank, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
+    shape = tuple(round(side * SHARP * scale) for side in ANCHOR)
+    found = cv2.cornerMinEigenVal(small, 3)
+    found = cv2.boxFilter(found, -1, shape)
+    for one in fields:
+        x, y = ((one.x - ANCHOR[0]) * SHARP * scale, (one.y - ANCHOR[1]) * SHARP * scale)
+        right, bottom = (one.x + one.w + ANCHOR[0], one.y + one.h + ANCHOR[1])
+        found[max(0, round(y)) : round(bottom * SHARP * scale),
+              max(0, round(x)) : round(right * SHARP * scale)] = 0  # fmt: skip
+    edge = round(EDGE * SHARP * scale)
+    anchors = []
+    rows = np.linspace(edge, small.shape[0] - edge, CELLS[1] + 1).astype(int)
+    columns = np.linspace(edge, small.shape[1] - edge, CELLS[0] + 1).astype(int)
+    least = float(found[edge:-edge, edge:-edge].max()) * FAINT
+    for top, bottom in pairwise(rows):
+        for left, right in pairwise(columns):
+            _, best, _, (x, y) = cv2.minMaxLoc(found[top:bottom, left:right])
+            if best > least:
+                middle = (left + x + 0.5) / scale / SHARP, (top + y + 0.5) / scale / SHARP
+                place = (middle[0] - ANCHOR[0] / 2, middle[1] - ANCHOR[1] / 2, *ANCHOR)
+                anchors.append(SheetField(0, "", "anchor", *place))
+    return anchors
 
 
 def place_frames(

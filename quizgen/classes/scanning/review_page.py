@@ -7,13 +7,14 @@ from pathlib import Path
 
 from markupsafe import Markup
 
-from quizgen.classes.scanning.pages import PAGE, PageReading
+from quizgen.classes.scanning.pages import NO_CODE, PAGE, PageReading
 from quizgen.classes.scanning.scan_folder import (
     NO_FIELD,
     NOT_SCANNED,
     ReadSheet,
     ScanFolder,
     name_picture,
+    name_stray,
 )
 from quizgen.classes.student_reports import report_css, report_environment
 from quizgen.core.files import PRIVATE, write_all
@@ -57,6 +58,17 @@ def write_review_page(
             twice=[say(one.student, page) for one in sheets for page in one.twice],
             faults=[say(one.student, *pair) for one in sheets for pair in one.faults.items()],
             absent=absent,
+            students=[*scans.folder.places()],
+            assigned=[
+                {
+                    "picture": name_stray(one),
+                    "file": one.file,
+                    "number": one.number,
+                    "student": one.student,
+                    "page": one.page,
+                }
+                for one in scans.list_assigned()
+            ],
             strays=[
                 {
                     "file": one.file,
@@ -64,6 +76,7 @@ def write_review_page(
                     "fault": one.fault,
                     "said": one.said,
                     "picture": _find_picture(scans, one),
+                    "name": name_stray(one) if one.fault == NO_CODE else "",
                 }
                 for one in strays
             ],

@@ -10,6 +10,7 @@ import os
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import NamedTuple
 
@@ -27,6 +28,7 @@ from quizgen.classes.scanning.pages import (
     PageReading,
     PartReading,
     ReadPicture,
+    read_assigned_picture,
     read_student_sheet,
 )
 from quizgen.core.decoding import json_decoder
@@ -43,7 +45,9 @@ ON_PAPER = "see paper"
 """Stands for an answer that nobody has read: it has no marks until somebody decides."""
 NO_FIELD, NOT_SCANNED, DIFFERS = "no_field", "missing", "differs"
 COLUMNS = ("id", "part", "answer")
+LOGGED = (*COLUMNS, "who", "when")
 _LINE = json_decoder(PageReading).decode
+_PAGE_ROW = re.compile(rf"{PAGE}\s*(\d{{1,3}})?")
 _PART = re.compile(r"\d{1,3}[a-z]{0,2}")
 
 
@@ -113,7 +117,15 @@ class ScanFolder:
         self._copies: dict[tuple[str, int], int] = {}
 
     def iter_pages(self) -> Iterator[PageReading]:
-        """Yield what was read of each picture; a line that was left half written is not there."""
+        """Yield what was read of each picture: of one that was assigned, what was said last."""
+        found = [*self._iter_lines()]
+        since = {(one.digest, one.number): place for place, one in enumerate(found) if one.assigned}
+        for place, one in enumerate(found):
+            if place >= since.get((one.digest, one.number), 0):
+                yield one
+
+    def _iter_lines(self) -> Iterator[PageReading]:
+        """Yield all lines of pages; one that was left half written is not there."""
         path = self.path / PAGES
         if path.exists():
             with path.open("rb") as stream:
@@ -161,17 +173,73 @@ class ScanFolder:
             os.fsync(stream.fileno())
         return kept
 
-    def add_typed(self, rows: Iterable[tuple[str, str, str]]) -> int:
+    def assign_picture(self, picture: str, student: str, page: int) -> None:
+        """Read a picture that was kept as a page of a student; of nobody with an empty id.
+
+        What was said of it before stays among the lines of pages.
+
+        Raises
+        ------
+        ClassError
+            If no picture without a code has the name, or the student's paper no such page.
+        """
+        now = next((one for one in self.iter_pages() if name_stray(one) == picture
+                    and (one.fault == NO_CODE or one.assigned)), None)  # fmt: skip
+        if now is None:
+            said = f"there is no picture {safe_echo(picture)} without a code"
+            raise ClassError(said, rule="QG613")
+        if (now.student, now.page) == (student, page):
+            return
+        when = datetime.now(UTC).strftime("%Y-%m-%d %H:%M:%S")
+        base = PageReading(now.file, now.digest, now.number, assigned=when)
+        made = ReadPicture(msgspec.structs.replace(base, fault=NO_CODE), {})
+        if student:
+            head, at = self.folder.places()[student]
+            pages = read_student_sheet(self.folder.path / KEYS, at).places.pages
+            if not 1 <= page <= pages:
+                said = f"the paper of {safe_echo(student)} has {pages} pages, and no page {page}"
+                raise ClassError(said, rule="QG613")
+            base = msgspec.structs.replace(base, student=student, paper=head.code, page=page)
+            made = read_assigned_picture(self.folder, base, self.path / STRAYS / f"{picture}.jpg")
+        if now.student:
+            for part in (PAGE, *now.parts):
+                (self.path / name_picture(now, part)).unlink(missing_ok=True)
+        self.find_done()  # counts copies anew
+        self.add_pages([made])
+
+    def list_assigned(self) -> list[PageReading]:
+        """Return the pictures of which a person said whose page they are."""
+        return [one for one in self.iter_pages() if one.assigned and one.student]
+
+    def add_typed(self, rows: Iterable[tuple[str, str, str]], who: str = "") -> int:
         """Add what people typed to ``typed.csv``, whose last row of a part counts.
 
-        Return how many answers are new.
+        Nothing is taken out of it. Return how many answers are new.
         """
-        known = self.read_typed()
-        fresh = [row for row in rows if known.get(row[:2]) != row[2]]
-        known |= {row[:2]: row[2] for row in fresh}
-        text = format_csv([COLUMNS, *((*key, answer) for key, answer in known.items())])
-        write_all(self.path, {TYPED: text.encode("utf-8-sig")}, PRIVATE)
+        path, now = self.path / TYPED, datetime.now(UTC).strftime("%Y-%m-%d %H:%M:%S")
+        before = [cells for _, cells in read_filled_rows(path, {*COLUMNS})]
+        known, fresh = self.read_typed(), list[tuple[str, ...]]()
+        for row in rows:
+            if known.get(row[:2]) != row[2]:
+                known[row[:2]] = row[2]
+                fresh.append((*row, who, now))
+        if fresh:
+            kept = [[cells.get(name, "") for name in LOGGED] for cells in before]
+            text = format_csv([LOGGED, *kept, *fresh])
+            write_all(self.path, {TYPED: text.encode("utf-8-sig")}, PRIVATE)
         return len(fresh)
+
+    def take_typed(self, row: tuple[str, str, str], who: str) -> None:
+        """Add what somebody typed for a part, and put it among the answers of the class."""
+        self.add_typed([row], who)
+        path = self.folder.path / ANSWERS / ANSWER_FILE
+        answers = {
+            (cells["id"], cells["part"]): cells["answer"]
+            for _, cells in read_filled_rows(path, {*COLUMNS})
+        }
+        answers[row[:2]] = row[2]
+        made = format_csv([COLUMNS, *((*key, answer) for key, answer in answers.items())])
+        write_all(path.parent, {path.name: made.encode("utf-8-sig")}, PRIVATE)
 
     def read_typed(self) -> dict[tuple[str, str], str]:
         """Return what people typed, by student and part."""
@@ -241,10 +309,15 @@ def _cut_torn_line(path: Path) -> None:
 def name_picture(one: PageReading, part: str) -> str:
     """Return the file below ``scans`` that has the picture of a part, or of the page."""
     if not one.student:
-        return f"{STRAYS}/{one.digest}-{one.number}.jpg"
+        return f"{STRAYS}/{name_stray(one)}.jpg"
     stem = f"{PAGE}-{one.page}" if part == PAGE else part
     more = f"-{one.copy}" if one.copy > 1 else ""
     return f"{one.paper}/{stem}{more}{'.jpg' if part == PAGE else '.png'}"
+
+
+def name_stray(one: PageReading) -> str:
+    """Return what a picture is called while it is of no sheet."""
+    return f"{one.digest}-{one.number}"
 
 
 def find_page_pictures(folder: ClassFolder, head: PrintedHead) -> list[Path]:
@@ -348,6 +421,9 @@ def _describe_sheet(sheet: ReadSheet) -> dict[str, object]:
 def read_typed_rows(path: Path, keys: KeyIndex) -> list[tuple[str, str, str]]:
     """Return what a person typed beside the pictures: rows of student, part and answer.
 
+    A part that begins with ``page`` assigns a picture, which the answer names, to that page; to
+    nobody where no student is named.
+
     Raises
     ------
     ClassError
@@ -357,10 +433,14 @@ def read_typed_rows(path: Path, keys: KeyIndex) -> list[tuple[str, str, str]]:
         raise ClassError("there is no such file", rule="QG612", file=path)
     rows = []
     for line, cells in read_filled_rows(path, {*COLUMNS}):
+        page = _PAGE_ROW.fullmatch(cells["part"].strip().lower())
         try:
-            student = keys.find_student(cells["id"])
+            student = "" if page and not cells["id"].strip() else keys.find_student(cells["id"])
         except ClassError as error:
             raise ClassError(error.message, rule="QG612", file=path, line=line) from None
+        if page:
+            rows.append((student, f"{PAGE} {page[1] or 0}", cells["answer"].strip()))
+            continue
         part = PartNames(keys.outline(student).items).find(cells["part"])
         if not part:
             said = f"the paper of {safe_echo(student)} has no part {safe_echo(cells['part'])}"

@@ -14,6 +14,7 @@ from quizgen.classes.key_index import KeyIndex
 from quizgen.classes.lock import lock_folder
 from quizgen.classes.scanning.pages import (
     EMPTY_PAGE,
+    PAGE,
     PageReading,
     ReadingJob,
     read_job,
@@ -133,7 +134,9 @@ def scan_class(
             empty += sum(one.reading.fault == EMPTY_PAGE for one in found)
             for one in {(one.reading.number, one.reading.file) for one in found}:
                 tell(one[1])
-        typed = scans.add_typed(rows) if rows else 0
+        for student, part, picture in (row for row in rows if row[1].startswith(PAGE)):
+            scans.assign_picture(picture, student, int(part.split()[1]))
+        typed = scans.add_typed(row for row in rows if not row[1].startswith(PAGE))
         known = sum(len(done.get(one.digest, ())) for one in files)
         report = _describe_run(scans, (read, known, empty, typed), problems)
         if report.sheets:

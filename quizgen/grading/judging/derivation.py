@@ -105,6 +105,31 @@ class DerivationMarker:
         fields |= {"right": count - len(missing), "of": count, "because": missing}
         return MarkedDerivation(cells, sum(points, Fraction(0)), note, fields)
 
+    def follow(self, lines: Sequence[DerivedLine]) -> tuple[Verdict, ...]:
+        """Return what is said of each line while others are still to come.
+
+        Whether the goal is right is not said before what leads to it is there: nobody is to find it
+        by trying.
+        """
+        found = []
+        for line in lines:
+            aims = any(self._may_be_goal(one) for one in line.relations)
+            early = aims and not self._is_led_up_to()
+            cell = self._mark_line(line)
+            told = not early or cell.note == "line-carried"
+            found.append(cell if told else ambiguous("line-early", cell.read_as))
+        return tuple(found)
+
+    def _may_be_goal(self, relation: Relation) -> bool:
+        """Return whether a relation has the form of the goal, true or not."""
+        return self._states_goal(relation) if self.goal.op == "eq" else relation.op != "eq"
+
+    def _is_led_up_to(self) -> bool:
+        """Return whether the lines are there that the goal needs, or any if none is needed."""
+        needed = {name for name, line in self.key.lines.items() if line.needed} - {self.goal_name}
+        there = self.earned.keys() - {self.goal_name}
+        return needed <= there if needed else bool(there)
+
     def _find_fault(
         self, lines: Sequence[DerivedLine], cells: Sequence[Verdict], missing: Sequence[str]
     ) -> tuple[str, dict[str, object]]:

@@ -177,7 +177,7 @@ def _is_near_printed(spec: Tolerance, number: ReadNumber, value: Value, key: Val
 
     22.6199 is printed as 22.6: then 22.5 is as near to it as 22.7.
     """
-    if spec.decimals is None or spec.within != 1 or number.places > spec.decimals:
+    if spec.decimals is None or spec.within != 1 or number.places != spec.decimals:
         return False
     printed = round_ball_half_away(key, spec.decimals)
     return bool(abs(value - printed) * 10**spec.decimals <= 1)
@@ -283,7 +283,7 @@ def _judge_coarse_rounding(
     if number.form not in {"decimal", "integer", "scientific"} or value == 0 or key == 0:
         return None
     figures = _count_right_figures(number, value, key)
-    if figures < LEAST_FIGURES:
+    if figures < LEAST_FIGURES and not (figures and agrees_within_half_percent(value, key)):
         one = figures and not spec.exact
         return wrong(read_as, "rounded-to-one") if one else None
     if spec.exact:

@@ -539,6 +539,7 @@ class Statement:
         self._held = self._find_held(subject) if subject else set()
         self.clauses = self._cut()
         self._rows: dict[int, tuple[_Item, list[tuple[int, ...]]]] = {}
+        self._starts: dict[tuple[str, bool], list[int]] = {}
         self._scales: dict[int, tuple[Scale, ...]] = {}
 
     def _find_held(self, subject: Subject) -> set[int]:
@@ -825,15 +826,45 @@ class Statement:
     def _find_rows(self, item: _Item, places: Iterable[int]) -> list[tuple[int, ...]]:
         """Return the tokens of each place where a row of an item stands."""
         if id(item) not in self._rows:
-            found = [
-                tuple(range(at, at + len(row)))
-                for at in range(len(self.tokens))
-                for row in item.rows
+            found = sorted(
+                (at, number)
+                for number, row in enumerate(item.rows)
+                for at in self._find_starts(row[0], exactly=item.formula)
                 if self._stands(item, row, at)
-            ]
-            self._rows[id(item)] = (item, found)
+            )
+            rows = [tuple(range(at, at + len(item.rows[number]))) for at, number in found]
+            self._rows[id(item)] = (item, rows)
         inside = set(places)
         return [row for row in self._rows[id(item)][1] if row[0] in inside and row[-1] in inside]
+
+    @cached_property
+    def _firsts(self) -> list[tuple[int, str]]:
+        """Return each token with the word that a row begins with there: after hyphens, if any."""
+        found: list[tuple[int, str]] = []
+        after = ""
+        for at in reversed(range(len(self.tokens))):
+            text = self.tokens[at].text
+            if text == "-":
+                found.append((at, text))
+            after = after if text == "-" else text
+            if after:
+                found.append((at, after))
+        return found[::-1]
+
+    def _find_starts(self, word: str, *, exactly: bool) -> list[int]:
+        """Return the tokens at which a row with this first word may begin.
+
+        Most rows begin with a word that is nowhere in the text, and many with the same one.
+        """
+        if (word, exactly) not in self._starts:
+            known = self._known
+            self._starts[word, exactly] = [
+                at
+                for at, typed in self._firsts
+                if typed == word
+                or (not exactly and is_form_of(typed, word, slips=typed not in known))
+            ]
+        return self._starts[word, exactly]
 
     def _stands(self, item: _Item, row: Sequence[str], place: int) -> bool:
         """Return whether a row stands at a token; a formula only if it goes on neither way.

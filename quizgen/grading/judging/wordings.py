@@ -26,6 +26,7 @@ _SHARES = (
     (re.compile(r"\bthree quarters\b"), "3/4"),
     (re.compile(r"\b(?:a |one )?quarter\b"), "1/4"),
     (re.compile("∞"), "infinity"),
+    (re.compile(r"(?<=\d) ?[-–—] ?(?=\d)"), " to "),
     (re.compile(r"\b(?:minus|negative) (?=\d)"), "-"),
     (re.compile(r"(?<!\S)\+(?=\d)"), ""),
     (re.compile(r"\b(?:between|zwischen) (.+) (?:and|und) "), r"from \1 to "),
@@ -50,7 +51,23 @@ _IDLE = frozenset(
         "those",
         "and",
     }
-    | {"becomes", "become", "der", "die", "das", "ist", "sind", "und", "ein", "eine", "i", "think"}
+    | {
+        "by",
+        "or",
+        "oder",
+        "becomes",
+        "become",
+        "der",
+        "die",
+        "das",
+        "ist",
+        "sind",
+        "und",
+        "ein",
+        "eine",
+        "i",
+        "think",
+    }
 )
 _AGAINST = frozenset(
     {"wrong", "false", "incorrect", "falsch", "instead", "rather", "other", "others", "ভুল", "মিথ্যা"}
@@ -73,9 +90,20 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
     spoken = _split_words(typed)
     listed = [frozenset(_split_words(wording)) for wording in wordings]
     said = frozenset(spoken)
-    same = [place for place, words in enumerate(listed, 1) if said and words == said]
+    same = [
+        place
+        for place, wording in enumerate(wordings, 1)
+        if said and said in _list_names_of(wording)
+    ]
     if len(same) == 1:
         return same[0]
+    named = [
+        place
+        for place, wording in enumerate(wordings, 1)
+        if _list_names_of(typed) - {said} <= _list_names_of(wording) and _APART.search(typed)
+    ]
+    if len(named) == 1:
+        return named[0]
     known = frozenset().union(*listed)
     meant = frozenset(_find_known_word(word, known) for word in _join_compounds(spoken, known))
     hits = [place for place, words in enumerate(listed, 1) if _own_words(words, listed) & meant]
@@ -91,6 +119,29 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
         return 0
     denied = says_otherwise(" ".join(more)) or _denies(wanted) != _denies(meant)
     return 0 if denied else hits[0]
+
+
+def holds_wording(text: str, wording: str) -> bool:
+    """Return whether a sentence has all of a wording in it, as words of its own."""
+    said, wanted = (" ".join(_ANY_WORD.findall(one.casefold())) for one in (text, wording))
+    return len(wanted) >= LEAST_TOLD and f" {wanted} " in f" {said} "
+
+
+_ANY_WORD = re.compile(r"[\w\u0980-\u09ff]+")
+LEAST_TOLD = 3
+"""Letters of a wording that can be recognised in a sentence."""
+
+
+def _list_names_of(wording: str) -> set[frozenset[str]]:
+    """Return the words of a wording, and of what stands for all of it beside a comma or a bracket.
+
+    ``the long ones, 600 to 700 nm (red)`` has three names.
+    """
+    parts = _APART.split(wording) if _APART.search(wording) else []
+    return {frozenset(_split_words(part)) for part in (wording, *parts)}
+
+
+_APART = re.compile(r"(?<!\d)[,;](?= )|(?<=\d)[,;](?= [^\W\d])|[()]")
 
 
 def _find_nearest(meant: frozenset[str], listed: list[frozenset[str]]) -> list[int]:
@@ -142,12 +193,24 @@ def _find_known_word(word: str, known: frozenset[str]) -> str:
     """Return the known word that a typed one is, maybe with slips in spelling; else itself."""
     if word in known or not word.isalpha():
         return word
-    near = [
+    near = [one for one in known if _stem(one) == _stem(word)] or [
         one
         for one in known
         if one[:1] == word[:1] and typo_distance(word, one, 1) <= min(1, allowed_typos(one))
     ]
     return near[0] if len(near) == 1 else word
+
+
+@lru_cache(maxsize=4096)
+def _stem(word: str) -> str:
+    """Return an English word without the ending of its verb: ``averag`` of ``averaging``."""
+    short = _VERB_ENDING.sub("", word)
+    return short if len(short) >= LEAST_STEM else word
+
+
+_VERB_ENDING = re.compile(r"(?:ing|ed|e)$")
+LEAST_STEM = 4
+"""Letters that are left of a word whose ending does not matter."""
 
 
 @lru_cache(maxsize=1024)

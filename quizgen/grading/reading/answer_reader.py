@@ -15,7 +15,7 @@ from typing import Literal, NamedTuple, TypeAlias
 
 from quizgen.core.errors import FormulaError
 from quizgen.grading.reading.factor_words import is_shrinking
-from quizgen.grading.reading.joined_values import rejoin_values
+from quizgen.grading.reading.joined_values import rejoin_values, repeat_value
 from quizgen.grading.reading.labels import NAME, AskedNames, find_name
 from quizgen.grading.reading.literals import LITERAL
 from quizgen.grading.reading.normalise import LONGEST_PROSE, REWRITES
@@ -165,6 +165,7 @@ def list_plainer_texts(
         return
     if form == "values":  # before a label such as "value" is taken for a word that leads on
         yield from separate_labelled_values(typed, names)
+        yield from repeat_value(typed, len(names))
     plain = drop_decoration(typed, form)
     if plain != typed:
         yield plain
@@ -179,6 +180,7 @@ def list_plainer_texts(
             yield from rejoin_values(spelt, len(names), ranges=ranges)
         else:
             yield from _single_answer(spelt, form)
+            yield from _find_conclusion(spelt)
 
 
 def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
@@ -197,6 +199,19 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
     named = behind is not None and behind[0].lower() not in _load_around_words().leading_on
     if not found[0][-1].isdigit() or not (named or (behind and form == "quantity")):
         yield found[0]
+
+
+def _find_conclusion(text: str) -> Iterator[str]:
+    """Yield the number that is concluded at the end: ``2^3 = 8, so 3 bits``."""
+    concluded = _CONCLUDED.fullmatch(text)
+    if concluded and not says_otherwise(concluded["rest"]):
+        yield concluded["rest"]
+
+
+_CONCLUDED = re.compile(
+    r".*\d.*?[,;.]? (?:so|thus|hence|therefore|daher|deshalb|তাই|সুতরাং),? (?P<rest>[^,;]*\d[^,;]*)",
+    re.IGNORECASE | re.DOTALL,
+)
 
 
 def _is_idle_remark(words: str) -> bool:

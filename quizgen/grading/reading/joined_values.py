@@ -39,7 +39,20 @@ _BETWEEN = re.compile(r" *[<≤] *[^\W\d_]\w* *[<≤] *")
 _DASH = re.compile(r" +[-–—] +| *[–—] *")
 _DASHES = re.compile(r" *[-–—] *")
 _AROUND = re.compile(rf"({_VALUE}) *(?:±|\+/-|\+-) *({_VALUE})")
+_EACH = re.compile(
+    rf"({_WHOLE.pattern}),? (?:each|both|je(?:weils)?|করে)"
+    rf"|(?:both|all|beide|je(?:weils)?|উভয়) ({_WHOLE.pattern})",
+    re.IGNORECASE,
+)
+"""One value for all that is asked: ``50 each``."""
 _PAIR = 2
+
+
+def repeat_value(text: str, count: int) -> Iterator[str]:
+    """Yield ``50; 50`` for ``both 50`` and ``50 each``."""
+    alike = _EACH.fullmatch(text.strip(" ."))
+    if alike and count >= _PAIR:
+        yield "; ".join([alike[1] or alike[2]] * count)
 
 
 def rejoin_values(text: str, count: int, *, ranges: bool = False) -> Iterator[str]:

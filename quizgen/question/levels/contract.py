@@ -14,6 +14,9 @@ from quizgen.kinds.contract import LINE, InputControl
 from quizgen.kinds.work import Unit, sum_minutes
 from quizgen.question.solution import PartSolution, Solution
 
+WRITTEN = 25
+"""Words that say which step is wrong, why, and what is right."""
+
 Choice = tuple[str, tuple[Inline, ...]]
 """A mark (letter or number) and what stands beside it."""
 
@@ -81,7 +84,9 @@ def estimate_part_minutes(part: LevelPart, *, solved: bool) -> Fraction:
         Whether what its solution computes is computed in any case, for another part.
     """
     work: dict[Unit, int | Fraction] = {"question": 1}
-    if part.options:
+    if part.solved.scheme:
+        work["word written"] = WRITTEN
+    elif part.options:
         work["tick"] = Fraction(len(part.options), 2)
     else:
         work["cell"] = 1

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from fractions import Fraction
 
 from quizgen.bank.markdown import Block, Emphasis, Inline, ListBlock, Paragraph, PlainText
 from quizgen.bank.sampler import shuffle
 from quizgen.bank.variant import Variant, leading_digits
 from quizgen.core.errors import MathError
+from quizgen.grading.spec import decode_spec
 from quizgen.kinds import NUMERIC
-from quizgen.kinds.contract import asked_quantities
+from quizgen.kinds.contract import InputControl, asked_quantities
+from quizgen.kinds.rubric import RubricSpec
+from quizgen.locale import translate
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.numbers import format_rounded
 from quizgen.question.inlines import translate_inlines
-from quizgen.question.interpolation import Interpolator
+from quizgen.question.interpolation import Interpolator, inlines_to_text
 from quizgen.question.levels.choice_part import LevelOption, make_choice_part
 from quizgen.question.levels.contract import LevelPart
 from quizgen.question.levels.perturbations import required_steps
@@ -27,11 +32,14 @@ from quizgen.question.levels.steps import (
     leaks_answer,
     level_seed,
 )
-from quizgen.question.solution import solution_step
+from quizgen.question.solution import PartSolution, SchemeLine, solution_step
 from quizgen.question.worked_steps import quantity_inlines, typeset_step
 
 FEWEST, MOST = 2, 8
 """Steps of a solution in which a mistake is looked for."""
+_SENTENCES = re.compile(r"(?<=[.;:।]) +")
+WRITTEN_LINES = 4
+"""Lines to write on why a step is wrong."""
 
 
 @dataclass(frozen=True)
@@ -42,6 +50,7 @@ class FaultySolution:
     steps: tuple[ChainStep, ...]
     trap: str = ""
     place: int = -1
+    written: bool = False
 
     def __call__(self, lang: str) -> LevelPart:
         """Return the part in a language."""
@@ -50,6 +59,8 @@ class FaultySolution:
             self._build_step_paragraph(shown, step, lang) for step in self._iter_shown_steps()
         )
         intro = Paragraph(translate_inlines(lang, "transfer.mistake_said"))
+        if self.written:
+            return self._ask_for_reason((intro, ListBlock(rows, ordered=True)), lang)
         asked = Paragraph((Emphasis("strong", translate_inlines(lang, "transfer.mistake")),))
         options = [self._build_step_option(place) for place in range(len(self.steps))]
         none = LevelOption(
@@ -62,6 +73,44 @@ class FaultySolution:
         lines = (solution_step(right, self.steps[self.place]),) if self.trap else ()
         body = (intro, ListBlock(rows, ordered=True), asked)
         return make_choice_part(self.drawn, lang, body, [*options, none], lines)
+
+    def _ask_for_reason(self, body: tuple[Block, ...], lang: str) -> LevelPart:
+        """Return the part in which the wrong step is named and mended in words."""
+        asked = Paragraph((Emphasis("strong", translate_inlines(lang, "transfer.mend")),))
+        langs, number = self.drawn.template.languages, str(self.place + 1)
+        ideas, names = {}, []
+        for each in langs:
+            filler = Interpolator(self.drawn, each)
+            shown = (PlainText(number),)
+            step = translate_inlines(each, "transfer.wrong_is", n=shown)
+            reason = (
+                *filler.sentence("traps", self.trap), PlainText(" "),
+                *filler.sentence("steps", self.steps[self.place].name),
+            )  # fmt: skip
+            ideas[each] = {"step": step, "reason": reason}
+            names += translate(each, "transfer.step_names").format(n=number).split("; ")
+        said = {
+            each: {name: inlines_to_text(idea) for name, idea in of.items()}
+            for each, of in ideas.items()
+        }
+        reasons = [one for of in said.values() for one in _SENTENCES.split(of["reason"])]
+        accept = {"step": names, "reason": reasons}
+        spec = decode_spec(RubricSpec, {
+            "kind": "rubric",
+            "full": len(accept),
+            "criteria": {name: {"points": 1, "accept": of} for name, of in accept.items()},
+            "ideas": said,
+        })  # fmt: skip
+        solved = PartSolution(
+            label="",
+            lines=(),
+            shown=(),
+            mistakes=(),
+            scheme=tuple(SchemeLine(name, Fraction(1), idea) for name, idea in ideas[lang].items()),
+        )
+        return LevelPart(
+            Fraction(1), (*body, asked), spec, solved, InputControl("lines", lines=WRITTEN_LINES)
+        )
 
     def _apply_misconception(self) -> Variant:
         """Return the variant with the values that the misconception leads to."""
@@ -128,22 +177,26 @@ class FaultySolution:
         return translate_inlines(lang, "transfer.one_wrong" if self.trap else "transfer.all_right")
 
 
-def choose_faulty_solution(drawn: Variant) -> FaultySolution | None:
+def choose_faulty_solution(drawn: Variant, *, written: bool = False) -> FaultySolution | None:
     """Return a solution of one part with a drawn misconception, or with none.
 
     None if no part has steps for it.
 
     Which step is wrong is drawn first, then the mistake in it, so that no step is a safe guess.
+    Where the reason is to be ``written``, one is wrong.
     """
     for index in shuffle(f"{level_seed(drawn)}/mistake", range(len(drawn.template.rules.part))):
         steps = _list_steps_to_answer(drawn, index)
         if not FEWEST <= len(steps) <= MOST:
             continue
-        by_place: dict[int, list[FaultySolution]] = {-1: [FaultySolution(drawn, steps)]}
+        by_place: dict[int, list[FaultySolution]] = {}
         for trap, place in _iter_usable_misconceptions(drawn, index, steps):
-            by_place.setdefault(place, []).append(FaultySolution(drawn, steps, trap, place))
-        if len(by_place) == 1:
+            one = FaultySolution(drawn, steps, trap, place, written)
+            by_place.setdefault(place, []).append(one)
+        if not by_place:
             continue
+        if not written:
+            by_place[-1] = [FaultySolution(drawn, steps)]
         key = f"{level_seed(drawn)}/mistake/{index}"
         for place in shuffle(key, sorted(by_place)):
             for wrong in shuffle(f"{key}/trap", by_place[place]):

@@ -144,18 +144,14 @@ class Perturbations:
         if self.drawn.values[target] == 0:
             return
         steps = required_steps(self.drawn, target)
-        used = dependencies(self.drawn, target)
         pairs = [
             (given, scale)
-            for given in self.drawn.template.chain.given
-            if given in used
-            and _is_changeable(self.drawn, given)
-            and not used & _find_dependent_quantities(self.drawn, given)
+            for given in list_changeable(self.drawn, target)
             for scale in (*SCALES, *SLIGHT)
         ]
         for given, scale in shuffle(f"{level_seed(self.drawn)}/{target}/changes", pairs):
             changed = self._solve_perturbed(given, scale)
-            if changed is None or not _has_same_formulas(self.drawn, changed, steps):
+            if changed is None or not has_same_formulas(self.drawn, changed, steps):
                 continue
             if not _is_printed_integer(self.drawn, index, target) or _is_whole(
                 changed.values[target]
@@ -189,6 +185,18 @@ def askable_results(drawn: Variant) -> Iterator[tuple[int, str]]:
                     yield index, name
 
 
+def list_changeable(drawn: Variant, target: str) -> list[str]:
+    """Return the given quantities of a result that may change while all others stay."""
+    used = dependencies(drawn, target)
+    return [
+        given
+        for given in drawn.template.chain.given
+        if given in used
+        and _is_changeable(drawn, given)
+        and not used & _find_dependent_quantities(drawn, given)
+    ]
+
+
 def _find_dependent_quantities(drawn: Variant, given: str) -> frozenset[str]:
     """Return drawn quantities that follow from one, and could not stay as they are."""
     found = {given}
@@ -208,10 +216,18 @@ def _is_changeable(drawn: Variant, given: str) -> bool:
 
 def _scale_given(drawn: Variant, given: str, scale: Fraction) -> Variant | None:
     """Return the variant after a change; None if the quantity cannot have that value."""
-    value = drawn.shown[given] * to_rational(scale)
-    if not _is_drawable_value(drawn, given, to_fraction(value)):
+    if not _is_drawable_value(drawn, given, to_fraction(drawn.shown[given] * to_rational(scale))):
         return None
-    shown = {**drawn.shown, given: value}
+    changed = scale_freely(drawn, given, scale)
+    return changed if changed is not None and _is_kept(changed) else None
+
+
+def scale_freely(drawn: Variant, given: str, scale: Fraction) -> Variant | None:
+    """Return the variant after a change to a value that need not be among those drawn.
+
+    None if what the task states does not hold any more, whatever else keeps its numbers handy.
+    """
+    shown = {**drawn.shown, given: drawn.shown[given] * to_rational(scale)}
     try:
         with working_precision():
             values = drawn.sampler.solve(shown, drawn.lists)
@@ -226,22 +242,33 @@ def _is_drawable_value(drawn: Variant, given: str, value: Fraction) -> bool:
     rule = drawn.template.rules.draw.get(given)
     if rule is None:  # what an author's Python gives has no range that is known
         return False
-    was = to_fraction(drawn.shown[given])
     listed = list_candidates(rule.pick, rule.range, rule.skip)
     if listed and not min(listed) <= to_rational(value) <= max(listed):
         return False
-    whole = was.denominator == 1 and not rule.unit and all(one.q == 1 for one in listed)
-    return len(listed) != 1 and (value.denominator == 1 or not whole)
+    return len(listed) != 1 and (value.denominator == 1 or not is_counted(drawn, given))
+
+
+def is_counted(drawn: Variant, given: str) -> bool:
+    """Return whether a drawn quantity has whole values alone, and no unit."""
+    rule = drawn.template.rules.draw[given]
+    listed = list_candidates(rule.pick, rule.range, rule.skip)
+    whole = to_fraction(drawn.shown[given]).denominator == 1
+    return whole and not rule.unit and all(one.q == 1 for one in listed)
 
 
 def _is_admissible(changed: Variant) -> bool:
     """Return whether the template's conditions hold, but for those that keep numbers handy."""
-    rules, template = changed.template.rules, changed.template
-    for text in rules.where:
+    template = changed.template
+    for text in template.rules.where:
         expr = template.parse_formula(text)
         handy = any(isinstance(node, Call) and node.op in _ROUNDING for node in walk_tree(expr))
         if not handy and not changed.evaluate(text):
             return False
+    return True
+
+
+def _is_kept(changed: Variant) -> bool:
+    """Return whether results are within the bounds that the template keeps."""
     return all(
         (
             keep.min is None
@@ -251,11 +278,11 @@ def _is_admissible(changed: Variant) -> bool:
             keep.max is None
             or changed.shown_values[name] <= to_rational(parse_written_number(keep.max))
         )
-        for name, keep in rules.keep.items()
+        for name, keep in changed.template.rules.keep.items()
     )
 
 
-def _has_same_formulas(drawn: Variant, changed: Variant, steps: list[ChainStep]) -> bool:
+def has_same_formulas(drawn: Variant, changed: Variant, steps: list[ChainStep]) -> bool:
     """Return whether the same formulas apply after a change, and no quantity changes its sign."""
     with working_precision():
         return all(

@@ -14,10 +14,11 @@ from functools import lru_cache
 from msgspec.structs import replace
 
 from quizgen.bank.markdown import Block, Emphasis, ListBlock, Paragraph, PlainText
-from quizgen.bank.sampler import shuffle
+from quizgen.bank.sampler import pick_index, shuffle
 from quizgen.bank.variant import Variant
 from quizgen.core.shares import share_points
 from quizgen.kinds import NUMERIC
+from quizgen.kinds.rubric import RubricSpec
 from quizgen.locale import translate
 from quizgen.question.interpolation import Interpolator
 from quizgen.question.levels import exam
@@ -30,6 +31,7 @@ from quizgen.question.levels.contract import (
     without_bold_questions,
 )
 from quizgen.question.levels.error_spotting import choose_faulty_solution
+from quizgen.question.levels.limit import choose_limit
 from quizgen.question.levels.perturbations import Perturbations
 from quizgen.question.levels.steps import level_seed, part_labels
 
@@ -56,11 +58,13 @@ def _list_part_builders(drawn: Variant) -> tuple[Maker, ...]:
     """Return the builders of the parts that can be asked of this variant, in order."""
     changes = Perturbations(drawn)
     asked = choose_consequence(changes)
+    written = bool(pick_index(f"{level_seed(drawn)}/written", 2))
     makers = (
         asked,
         choose_way_back(changes, asked),
+        choose_limit(changes, asked),
         choose_comparison(changes, asked),
-        choose_faulty_solution(drawn),
+        choose_faulty_solution(drawn, written=written),
     )
     return tuple(maker for maker in makers if maker is not None)
 
@@ -94,7 +98,20 @@ def ask(drawn: Variant, lang: str) -> LevelQuestion:
 
 def _relabel_part(part: LevelPart, label: str, points: Fraction) -> LevelPart:
     """Return a part with another label and other marks."""
-    return replace(part, points=points, solved=replace(part.solved, label=label))
+    spec, solved = part.spec, replace(part.solved, label=label)
+    if isinstance(spec, RubricSpec):
+        worth = dict(
+            zip(
+                spec.criteria, share_points(points, [Fraction(1)] * len(spec.criteria)), strict=True
+            )
+        )
+        criteria = {
+            name: replace(one, points=str(worth[name])) for name, one in spec.criteria.items()
+        }
+        spec = replace(spec, full=str(points), criteria=criteria)
+        lines = (line._replace(points=worth[line.name]) for line in solved.scheme)
+        solved = replace(solved, scheme=tuple(lines))
+    return replace(part, points=points, spec=spec, solved=solved)
 
 
 def _iter_task_blocks(drawn: Variant, lang: str, usual: LevelQuestion) -> Iterator[Block]:

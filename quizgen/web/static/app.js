@@ -81,6 +81,20 @@ document.addEventListener("keydown", (event) => {
   });
 })();
 
+// A field of lines: one that is finished - by Enter, by pasting, by leaving the field - is read back.
+(() => {
+  const told = new WeakMap();
+  const tell = (event) => {
+    const field = event.target;
+    if (!field.matches?.("textarea[data-rows]") || told.get(field) === field.value) { return; }
+    if (event.type === "input" && !/^(insertLineBreak|insertParagraph|insertFromPaste)$/.test(event.inputType)) { return; }
+    told.set(field, field.value);
+    field.dispatchEvent(new CustomEvent("quizgen:row"));
+  };
+  document.addEventListener("input", tell);
+  document.addEventListener("change", tell);
+})();
+
 // Signs that the keyboard of a phone hides, put where the last field had its caret. Once there, they
 // stay: whatever moved under a finger would not be pressed.
 (() => {
@@ -92,10 +106,14 @@ document.addEventListener("keydown", (event) => {
   } });
   document.addEventListener("click", (event) => {
     const sign = event.target.closest("[data-put]");
-    const field = last?.isConnected ? last : document.querySelector("section.part input[type=text]:not([readonly])");
+    const field = document.getElementById(sign?.dataset.into) ?? (last?.isConnected ? last : document.querySelector("section.part input[type=text]:not([readonly])"));
     if (!sign || !field) { return; }
-    field.setRangeText(sign.dataset.put, field.selectionStart, field.selectionEnd, "end");
+    const [from, to] = [field.selectionStart, field.selectionEnd];
+    const [before, after] = sign.dataset.put.split("|");
+    field.setRangeText(before + (after ? field.value.slice(from, to) + after : ""), from, to, "end");
     field.focus();
+    const inside = from === to ? from + before.length : field.selectionEnd - after?.endsWith("()");
+    if (after) { field.setSelectionRange(inside, inside); }
     field.dispatchEvent(new Event("input", { bubbles: true }));
   });
 })();
