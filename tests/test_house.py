@@ -104,8 +104,9 @@ def test_no_python_file_names_a_language_but_english():
 
 SUBJECT = {"arrays", "camera", "tradeoff"}
 """What pictures are made with: an effect or a formula may be called as a topic or a figure is."""
-OTHERWISE = {"code", "camera", "colour", "image", "projection"}
-"""An answer kind, a command's word, a spelling, an element of SVG, and a parameter of matplotlib."""
+OTHERWISE = {"code", "camera", "colour", "eye", "image", "projection"}
+"""An answer kind, a command's word, a spelling, a word of every dictionary, an element of SVG, and a
+parameter of matplotlib."""
 
 
 def test_the_engine_names_no_topic_and_no_title():

@@ -116,11 +116,15 @@ class _Variable(msgspec.Struct, frozen=True):
         words: dict[str, str],
         lists: Mapping[str, RationalList] | None = None,
     ) -> None:
-        """Set the quantity, or the phrase at the place that the formula counts from 0."""
+        """Set the quantity, or the phrase at the place that the formula counts from 0.
+
+        A condition counts 1 if it holds, else 0.
+        """
         value = self._compute_value({**shown, **lists} if lists else shown)
-        if isinstance(value, int | tuple):  # truths, and what Python makes of their sum or negative
-            what = "a list" if isinstance(value, tuple) else "a condition"
-            raise self._fault(f"{what}, where a number is needed")
+        if isinstance(value, tuple):
+            raise self._fault("a list, where a number is needed")
+        if isinstance(value, int):  # a truth, and what Python makes of a sum or negative of some
+            value = fmpq(int(value))
         if self.words:
             if not isinstance(value, fmpq):
                 raise self._fault("by: the place of a phrase is a rational number")

@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import io
 import os
+import sys
 from collections.abc import Iterable, Iterator
 from datetime import UTC, datetime
 from pathlib import Path
@@ -133,7 +134,7 @@ class GradingHistory:
         with _Lines() as lines, open_private(fresh, truncate=True) as stream:
             for one in marked:
                 students, undecided = students + 1, undecided + one.undecided_count
-                line = _ENCODE(one) + b"\n"
+                line = _format_line(one)
                 before = places.get(one.student)
                 old = lines.at(*before) if before else b""
                 if old == line:
@@ -219,6 +220,14 @@ def _read_student(line: bytes, path: Path) -> str:
         return _WHO(line).student
     except msgspec.DecodeError as error:
         raise ClassError(f"{path}: {error}") from None
+
+
+def _format_line(marks: StudentMarks) -> bytes:
+    """Return marks as a line, the same wherever they were made.
+
+    msgspec leaves out a default that is the same object, which no text from another process is.
+    """
+    return _ENCODE(msgspec.structs.replace(marks, decimal=sys.intern(marks.decimal))) + b"\n"
 
 
 def _decode_marks(line: bytes, path: Path) -> StudentMarks:

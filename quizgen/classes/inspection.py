@@ -1,6 +1,6 @@
 """What a student looks at when the marked papers are shown: one PDF file for each.
 
-Where the answer sheet was scanned, its pages are in it, with what was read of them.
+Where paper was scanned, its pages are in it, with what was read of them and what it earned.
 """
 
 from __future__ import annotations
@@ -16,8 +16,9 @@ from quizgen.classes.grading_history import GradingHistory
 from quizgen.classes.key_index import KeyIndex
 from quizgen.classes.lock import lock_folder
 from quizgen.classes.objections import read_objections
+from quizgen.classes.scanning.marked_pages import draw_marked_pages
 from quizgen.classes.scanning.pages import WHOLE
-from quizgen.classes.scanning.scan_folder import find_crop, find_page_pictures
+from quizgen.classes.scanning.scan_folder import find_crop
 from quizgen.classes.student_reports import grade_folder, make_report, report_to_pdf
 from quizgen.core.errors import ClassError, KeyFileError
 from quizgen.core.files import PRIVATE, write_all
@@ -62,8 +63,9 @@ def write_inspection(folder: ClassFolder, wanted: Collection[str]) -> list[Path]
             with error_context(keys.path, KeyFileError):
                 report = make_report(line, keys.key(who), own)
             solved = folder.path / SOLUTIONS / f"{line.student.file}.pdf"
-            head, _ = keys.places[who]
-            crops, read = _find_crops(folder, head, line), find_page_pictures(folder, head)
+            head, at = keys.places[who]
+            crops = _find_crops(folder, head, line)
+            read = draw_marked_pages(folder, head, at, line.marks)
             whole = _join_pdfs(report_to_pdf(report, room=True, crops=crops), solved, read)
             name = f"{line.student.file}.pdf"
             paths += write_all(folder.path / FOLDER / INSPECTION, {name: whole}, PRIVATE)
@@ -78,7 +80,7 @@ def _find_crops(folder: ClassFolder, head: PrintedHead, line: GradedStudent) -> 
     return {part: path for part, path in found.items() if path is not None}
 
 
-def _join_pdfs(first: bytes, second: Path, pictures: Sequence[Path]) -> bytes:
+def _join_pdfs(first: bytes, second: Path, pictures: Sequence[bytes]) -> bytes:
     """Return a PDF file with pictures, and the pages of another one if it is there, behind its own.
 
     Raises ``ClassError`` if something is damaged.
@@ -86,19 +88,18 @@ def _join_pdfs(first: bytes, second: Path, pictures: Sequence[Path]) -> bytes:
     import pikepdf
     from PIL import Image
 
-    out, place = io.BytesIO(), second
+    out = io.BytesIO()
     try:
         with ExitStack() as opened:
             whole = opened.enter_context(pikepdf.open(io.BytesIO(first)))
-            for place in pictures:
+            for one in pictures:
                 page = io.BytesIO()
-                with Image.open(place, formats=("JPEG",)) as picture:
+                with Image.open(io.BytesIO(one), formats=("JPEG",)) as picture:
                     picture.save(page, "PDF", resolution=WHOLE * 25.4)
                 whole.pages.extend(opened.enter_context(pikepdf.open(page)).pages)
-            place = second
             if second.exists():  # a quiz that was played has none
                 whole.pages.extend(opened.enter_context(pikepdf.open(second)).pages)
             whole.save(out, deterministic_id=True)
     except (pikepdf.PdfError, OSError, RuntimeError, ValueError) as error:
-        raise ClassError(f"{place}: is damaged ({error})") from None
+        raise ClassError(f"{second}: is damaged ({error})") from None
     return out.getvalue()

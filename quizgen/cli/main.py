@@ -145,7 +145,9 @@ def _run_command(arguments: list[str] | None) -> int:
         error.show(shown)
         click.echo(escape_control_characters(shown.getvalue()), nl=False, err=True)
     except QuizgenError as error:
-        print_message(str(error))
+        from quizgen.cli.author_language import explain_error
+
+        print_message(explain_error(error, arguments))
     except BrokenPipeError:
         sys.stderr.close()
     except OSError as error:

@@ -113,13 +113,15 @@ def open_sound_bank(options: BankOptions) -> Bank:
     bank = open_bank(options)
     if len(bank.members) == 1 and bank.root == builtin_root():
         return bank
+    from quizgen.cli.author_language import explain_error
     from quizgen.lint.broken_templates import leave_out_broken
 
     sound, broken = leave_out_broken(bank)
     if broken and not len(sound):
         raise next(iter(broken.values()))
-    for said in dict.fromkeys(map(str, broken.values())):
-        names = ", ".join(name for name, error in broken.items() if str(error) == said)
+    told = {name: explain_error(error) for name, error in broken.items()}
+    for said in dict.fromkeys(told.values()):
+        names = ", ".join(name for name, one in told.items() if one == said)
         print_message(f"{said}; left out: {names}")
     return sound
 

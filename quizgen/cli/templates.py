@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import click
 
+from quizgen.cli.author_language import explain_error
 from quizgen.cli.options import BankOptions, bank_options, match_choice, open_bank, resolve_topic
 from quizgen.cli.terminal import is_interactive, print_message, print_table, to_one_line
 from quizgen.core.errors import BankError
@@ -86,7 +87,7 @@ def _iter_matching_rows(bank: Bank, filters: TemplateFilters) -> Iterator[tuple[
             ):
                 yield _build_template_row(bank, name)
         except BankError as error:
-            print_message(str(error))
+            print_message(explain_error(error))
 
 
 def _is_mentioned(bank: Bank, name: str, search: str) -> bool:

@@ -7,7 +7,7 @@ and some take the first interval that fits while others take all, so no two of t
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 from math import inf, isfinite
 
@@ -32,20 +32,22 @@ DECIMALS = range(-7, 13)
 
 @dataclass(frozen=True, slots=True)
 class WrongValue:
-    """A wrong value, and the feedback to it."""
+    """A wrong value, the feedback to it, and the share of the points that it still earns."""
 
     value: Value
     feedback: tuple[Inline, ...] = ()
+    share: float = 0
 
 
 @dataclass(frozen=True, slots=True)
 class AnswerRange:
-    """Numbers around a value: whether they are right, and the feedback to them."""
+    """Numbers around a value: whether they are right, the feedback, and what a mistake earns."""
 
     value: float
     width: float
     right: bool
     feedback: tuple[Inline, ...] = ()
+    share: float = 0
 
     @property
     def low(self) -> float:
@@ -99,9 +101,8 @@ def _wrong_range(rule: Tolerance, one: WrongValue) -> AnswerRange:
     width = min(to_float(rule.half_width(one.value)), to_float(WIDEST) * abs(value))
     wide = min(close, _rounding_error(value)) if rule.exact else max(close, width)
     widest = max(wide, SAME * max(abs(value), 1))
-    return AnswerRange(
-        value, _move_off_edge(value, widest, NARROWER), right=False, feedback=one.feedback
-    )
+    width = _move_off_edge(value, widest, NARROWER)
+    return AnswerRange(value, width, right=False, feedback=one.feedback, share=one.share)
 
 
 def _rounding_error(value: float) -> float:
@@ -122,7 +123,7 @@ def _separate(wanted: Iterable[AnswerRange]) -> Iterator[AnswerRange]:
         width = one.width
         if width >= room:
             width = _move_off_edge(one.value, room * NARROWER, NARROWER)
-        separate.append(AnswerRange(one.value, width, one.right, one.feedback))
+        separate.append(replace(one, width=width))
         yield separate[-1]
 
 

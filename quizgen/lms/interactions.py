@@ -265,9 +265,17 @@ def _numeric_interaction(
     if spec.exact and not _has_finite_decimal(key):
         return (solved.as_manual("fraction"),)
     feedback = solved.mistakes
-    wrong = [WrongValue(value, feedback.get(name, ())) for name, value in spec.trap_values(scale)]
+    wrong = [
+        WrongValue(value, feedback.get(name, ()), _find_share(spec, name))
+        for name, value in spec.trap_values(scale)
+    ]
     precision = _precision_text(spec, spec.value, solved.lang)
     return (NumericInteraction("", unit, disjoint_ranges(spec, key, wrong, period), precision),)
+
+
+def _find_share(spec: ScalarSpec, mistake: str) -> float:
+    """Return the share of the points that a known mistake still earns."""
+    return float(parse_exact(spec.worth.get(mistake, 0)))
 
 
 def _precision_text(spec: NumericSpec, key: KeyNumbers, lang: str) -> str:

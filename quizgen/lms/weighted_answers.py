@@ -50,7 +50,8 @@ def weighted_answers(interaction: Interaction, lang: str) -> Iterator[WeightedAn
         case NumericInteraction():
             for one in interaction.ranges:
                 feedback = to_course_html(one.feedback, lang)
-                yield WeightedAnswer(repr(one.value), 100 * one.right, feedback, repr(one.width))
+                percent = 100.0 if one.right else find_moodle_percent(100 * one.share)
+                yield WeightedAnswer(repr(one.value), percent, feedback, repr(one.width))
         case TextEntryInteraction():
             for typed in interaction.right:
                 yield WeightedAnswer(_escape_star(typed), 100)
@@ -78,6 +79,10 @@ def _option_percents(interaction: ChoiceInteraction) -> list[float]:
     """
     if not interaction.many:
         return [100 * option.right for option in interaction.options]
-    share = Fraction(100, max(len(interaction.right), 1))
-    nearest = min(MOODLE_PERCENTS, key=lambda percent: abs(percent - share))
+    nearest = find_moodle_percent(Fraction(100, max(len(interaction.right), 1)))
     return [nearest if option.right else -nearest for option in interaction.options]
+
+
+def find_moodle_percent(share: float | Fraction) -> float:
+    """Return the percentage that Moodle knows which is nearest to this one."""
+    return min(MOODLE_PERCENTS, key=lambda percent: abs(percent - share))

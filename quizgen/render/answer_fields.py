@@ -266,7 +266,8 @@ def _typeset_values(one: PaperPart) -> str:
     columns = min(len(boxes), MOST_BOXES if named else MOST_BOXES + 1) if _is_row(field) else 1
     if not named and len(boxes) > 1:
         width = 32 if field.control.form == "gaps" else 18
-    return f"values({columns}, {width}mm, [{_join_hints(one)}], {', '.join(rows)})"
+    number = ", number: true" if field.is_number else ""
+    return f"values({columns}, {width}mm, [{_join_hints(one)}]{number}, {', '.join(rows)})"
 
 
 MOST_BOXES = 3

@@ -134,6 +134,9 @@ class _TypstPaper:
             if name == "ticks":
                 times = [self._typeset_paper_word("time", lang) for lang in self.langs]
                 said = [f"{one} {time}" for one, time in zip(said, times, strict=True)]
+            if name == "numbers" and self.scanned:
+                cells = [self._typeset_paper_word("cells", lang) for lang in self.langs]
+                said = [f"{one} {cell}" for one, cell in zip(said, cells, strict=True)]
             title = translate_all(self.langs, f"paper.{name}_title")
             rows.append(f"rule([{title}], [{stack_languages(self.langs, said)}])")
         return f"#rules({', '.join(rows)})"

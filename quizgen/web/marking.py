@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import getpass
 import secrets
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, lru_cache
@@ -27,7 +27,7 @@ from quizgen.classes.generation import redraw_question
 from quizgen.classes.grading_run import grade_class
 from quizgen.classes.manual_grading import DecisionCase, check_points
 from quizgen.classes.markers import ItemMarkers, read_markers, split_names, write_markers
-from quizgen.classes.marking import AnswerCard, AnswerIndex, MarkingDesk, MarkingState, TakenError
+from quizgen.classes.marking import AnswerCard, AnswerIndex, MarkingDesk, TakenError
 from quizgen.classes.rubrics import (
     ItemRubric,
     RubricLine,
@@ -128,14 +128,15 @@ def _list_progress(desk: MarkingDesk, who: Marker) -> list[ItemProgress]:
     """Return all items of a class with their progress."""
     index, state, markers = desk.index(), desk.state(), read_markers(desk.folder)
     agreed = agreement_by_item(state.rulings)
+    done = [desk.list_done(second=second) for second in (False, True)]
     return [
         ItemProgress(
             item,
             index.numbers[item],
             cards[0].worth,
             sum(card.students for card in cards),
-            _count_students(cards, state, second=False),
-            _count_students(cards, state, second=True),
+            _count_students(cards, done[0]),
+            _count_students(cards, done[1]),
             markers.of(item),
             agreed.get(item),
             markers.of(item).is_second(who.name),
@@ -144,11 +145,10 @@ def _list_progress(desk: MarkingDesk, who: Marker) -> list[ItemProgress]:
     ]
 
 
-def _count_students(cards: list[AnswerCard], state: MarkingState, *, second: bool) -> int:
+def _count_students(cards: list[AnswerCard], done: Container[str]) -> int:
     """Return of how many students the answers are decided."""
-    said = state.list_decisions(second=second)
     return sum(case.answer.students for card in cards for case in card.cases
-               if case.answer.group in said)  # fmt: skip
+               if case.answer.group in done)  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -56,6 +56,9 @@ _NUMBERED = re.compile(
 )
 """The number of what is asked, and its sign or few words."""
 
+GAP = "____"
+"""Where a word is missing in a sentence."""
+
 Html = str
 """Markup made here; whatever a learner typed never gets into it."""
 
@@ -78,6 +81,8 @@ class FieldView(msgspec.Struct, frozen=True):
     """The words around the field, if it stands inside a sentence or a cell."""
     formula_names: list[tuple[str, Html]] | None = None
     """Names that a formula may hold, as they are typed and typeset; None if no formula is asked."""
+    sentences: Html = ""
+    """The text of the part, if each of its gaps takes one of the boxes."""
 
     @property
     def marks(self) -> list[str]:
@@ -446,7 +451,15 @@ def _render_field(part: QuestionPart, spec: AnySpec, stem: Html, lang: str) -> F
         _render_board(field.drawing),
         field.near,
         _list_formula_names(part, spec, stem, lang),
+        _find_sentences(part, lang),
     )
+
+
+def _find_sentences(part: QuestionPart, lang: str) -> Html:
+    """Return the text of a part if it has a gap for each of several boxes; else an empty one."""
+    body, boxes = _render_blocks(part.body, lang), part.field.control.boxes
+    is_gapped = part.field.control.form == "gaps" and body.count(GAP) == len(boxes) > 1
+    return body if is_gapped else ""
 
 
 def _render_board(drawing: FieldPicture | None) -> Html:

@@ -74,6 +74,8 @@ def test_the_streams_of_the_generator_never_change():
     assert ours.normal(3, 2, 4).tolist() == state.normal(3, 2, 4).tolist()
     assert ours.integers(5, 9, 6).tolist() == state.randint(5, 9, 6).tolist()
     assert ours.permutation(7).tolist() == state.permutation(7).tolist()
+    assert ours.poisson(4, 5).tolist() == state.poisson(4, 5).tolist()
+    assert ours.binomial(9, 0.3, 5).tolist() == state.binomial(9, 0.3, 5).tolist()
     assert ours.multinomial(20, [0.5, 0.25, 0.25]).sum() == 20
     assert FrozenGenerator("another").random() != FrozenGenerator("a key").random()
 
@@ -222,6 +224,7 @@ def test_data_that_is_never_given_is_named(tmp_path, monkeypatch):
     [
         ('[draw]\nx = { normal = ["1", "2"], size = 5 }\n', "normal needs decimals"),
         ('[draw]\nx = { normal = ["1", "2"], decimals = 1 }\n', "normal needs size"),
+        ('[draw]\nx = { normal = ["1", "2"], size = 5, decimals = 99 }\n', "must be 0 to"),
         ("[draw]\nx = { sample = [1, 2], size = 3 }\n", "a sample of 3 out of 2"),
         ('[draw]\nx = { table = "no.csv" }\n', "no.csv"),
         ('[draw]\nx = { table = "../no.csv" }\n', "no .csv or .json beside"),

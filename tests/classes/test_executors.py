@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
+import pickle
 import time
 
 import pytest
@@ -12,6 +13,8 @@ from small import begun, bytes_of, with_papers
 
 from quizgen.classes import generation
 from quizgen.classes.class_folder import ClassFolder
+from quizgen.classes.grading import GradedClassPart, StudentMarks
+from quizgen.classes.grading_history import GradingHistory
 from quizgen.classes.roster import RosterStudent
 from quizgen.core.errors import InvalidChoiceError, WorkerError
 from quizgen.core.executor import InlineExecutor, ProcessExecutor, map_unordered, open_executor
@@ -147,3 +150,12 @@ def test_a_scheduler_that_is_not_there_is_named():
         open_executor(1, "tcp://127.0.0.1:1"),
     ):
         pass
+
+
+def test_marks_from_another_process_are_the_same_marks(tmp_path):
+    marks = StudentMarks("4711001", (GradedClassPart("1", "a", "7", "correct", 2.0, 2.0),), "en")
+    history = GradingHistory(tmp_path)
+    history.write([marks])
+    written = bytes_of(tmp_path)
+    history.write([pickle.loads(pickle.dumps(marks))])
+    assert bytes_of(tmp_path) == written

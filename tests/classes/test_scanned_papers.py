@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import shutil
+from fractions import Fraction
 
 import cv2
 import numpy as np
+import pikepdf
 import pytest
 from made import run
 from paper_and_pen import PER_MM, Pen, fill_sheet, rasterise, save_scan, scan, spoil
@@ -122,6 +124,38 @@ def test_a_paper_comes_back_as_the_answers_that_were_meant(made_class, lines, bl
     assert {key for key, mark in marks.items() if mark is None} == {
         key for key, answer in answers.items() if answer == "see paper"
     }
+    check_marked_pages(folder, line, marks)
+
+
+def check_marked_pages(folder, line: dict, marks: dict) -> None:
+    """In the student's own copy, points stand in their boxes: full in green, none in red."""
+    assert run("class", "inspect", folder, line["id"]) == 0
+    with pikepdf.open(folder / "results" / "inspection" / f"{line['id']}.pdf") as whole:
+        shown = [
+            pikepdf.PdfImage(picture).as_pil_image()
+            for page in whole.pages
+            for picture in page.get_images().values()
+        ]
+    wide = [np.asarray(one.convert("RGB"), int) for one in shown if one.size == (840, 1188)]
+    assert len(wide) == line["sheet"]["pages"]
+    seen = set()
+    for field in (one for one in line["sheet"]["fields"] if one["kind"] == "points"):
+        x, y, w, h = (round(4 * field[name]) for name in "xywh")
+        red, green, _ = wide[field["page"] - 1][y : y + h, x : x + w].reshape(-1, 3).T
+        mark = marks[line["id"], field["part"]]
+        if mark is not None and field["part"] in marks_of_whole_or_none(line, marks):
+            seen.add(bool(mark))
+            most = (green - red if mark else red - green).max()
+            assert most > 50, (field, mark)
+    assert seen, "something was marked"
+
+
+def marks_of_whole_or_none(line: dict, marks: dict) -> set[str]:
+    """The parts that earned all of their points, or none."""
+    worth = {
+        p["id"]: float(Fraction(p["points"])) for q in line["key"]["questions"] for p in q["parts"]
+    }
+    return {part for part, points in worth.items() if marks[line["id"], part] in {0.0, points}}
 
 
 def test_working_without_an_answer_is_asked(made_class, lines, blanks, tmp_path):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import pickle
 from pathlib import Path
 
@@ -9,7 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 from quizgen.bank.bank import Bank
-from quizgen.cli.main import root_group
+from quizgen.cli.main import main, root_group
 from quizgen.core.errors import QuizgenError
 from quizgen.lint.broken_templates import leave_out_broken
 
@@ -131,3 +132,22 @@ def test_other_processes_leave_out_the_same(root):
 def test_python_that_may_not_run_breaks_nothing(root):
     sound, _ = leave_out_broken(Bank(root, trusted=False))
     assert "travel-time" in sound.template_paths
+
+
+@pytest.mark.parametrize(
+    "command",
+    [("preview", "travel-time"), ("exam", "--out", "out"), ("templates",)],
+    ids=lambda command: command[0],
+)
+def test_an_error_is_told_in_the_language_of_the_bank(command, tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.chdir(tmp_path)
+    german = tmp_path / "meine"
+    run("new", "bank", german, "--lang", "de")
+    rules = german / "templates/example/travel-time/template.toml"
+    rules.write_text(rules.read_text("utf-8").replace("s = { range", "s = { rnge"), "utf-8")
+    with contextlib.suppress(SystemExit):
+        main([*command, "--bank", str(german), "--trust"])
+    said = " ".join(capsys.readouterr().err.split())
+    assert "template.toml:9: Diesen Schlüssel gibt es nicht" in said
+    assert "unknown key 'rnge'; did you mean 'range'?" in said, "what the place is, is kept"

@@ -184,3 +184,12 @@ def test_full_diagnosis_of_a_wrong_answer_is_fast():
     for number in range(100):
         grade_answer(HEIGHT, f"3.{number:02d}1 mm", context=context)
     assert (time.process_time() - start) / 100 < 0.01
+
+
+def test_a_term_left_out_leaves_the_others():
+    def leave_out(formula):
+        made = mutate_formula(parse_formula(formula), {})
+        return [form for note, _, form in made if note == "term-left-out"]
+
+    assert leave_out("a + b") == [*map(parse_formula, "ba")]
+    assert leave_out("a + b + c") == [*map(parse_formula, ("b + c", "a + c", "a + b"))]

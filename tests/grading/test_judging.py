@@ -191,3 +191,30 @@ def test_ambient_precision_is_left_as_it_was():
     before = flint.ctx.prec
     grade_answer({"kind": "number", "value": "sqrt(2)"}, "√2")
     assert flint.ctx.prec == before
+
+
+KINDS_OF_NOISE = ["noise", "blur", "glare"]
+BY_HAND = {
+    "A": "measure the light",
+    "B": "set the aperture",
+    "C": "take the picture",
+}
+
+
+@together(
+    ("spec", "typed", "verdict", "read_as"),
+    [
+        ({"kind": "multi", "options": KINDS_OF_NOISE, "correct": [1, 2, 3]}, "all of them", "correct", "A, B, C"),
+        ({"kind": "choice", "options": KINDS_OF_NOISE, "correct": [2]}, "the second", "correct", "B"),
+        ({"kind": "order", "steps": ["A", "B", "C"], "words": BY_HAND},
+         "measure the light, set the aperture, take the picture", "correct", "A B C"),
+        ({"kind": "order", "steps": ["A", "B", "C"], "words": BY_HAND},
+         "take the picture, set the aperture, measure the light", "wrong", "C B A"),
+        ({"kind": "expression", "value": "1234*x", "symbols": {"x": "real"}}, "1,234 x", "ambiguous", "1.234·x | 1234·x"),
+        ({"kind": "expression", "value": "x*(sin(x)+1)", "symbols": {"x": "real"}, "form": "factored"},
+         "x*(sin(x)+1)", "correct", "x·(sin(x) + 1)"),
+    ],
+)  # fmt: skip
+def test_what_words_choose_and_what_signs_leave_open(spec, typed, verdict, read_as):
+    found = grade_answer(spec, typed)
+    assert (found.verdict, found.read_as) == (verdict, read_as)

@@ -20,7 +20,7 @@ from quizgen.store import Packed, Store
 from quizgen.store.database import back_up
 from quizgen.web.app import create_app
 from quizgen.web.auth import COOKIE, csrf_token
-from quizgen.web.event_log import FORMS, set_up_log
+from quizgen.web.event_log import FORMS, log_event, set_up_log
 from quizgen.web.settings import ServerSettings
 
 ADDRESS = "http://127.0.0.1:8000"
@@ -61,6 +61,16 @@ def read(log) -> dict[str, str]:
         return {name: str(value) for name, value in json.loads(line).items()}
     _, level, event, rest = line.split(" ", 3)
     return {"level": level, "event": event, **dict(re.findall(r'(\w+)=("[^"]*"|\S+)', rest))}
+
+
+def test_a_line_has_every_word_once_and_signs_of_any_script(log):
+    log_event("seen", who="শিক্ষার্থী", said="two words", empty="", many=["a", "b"])
+    form, text = log()
+    if form == "json":
+        assert "শিক্ষার্থী" in text
+        assert json.loads(text)["said"] == "two words"
+    else:
+        assert text.rstrip().endswith('who=শিক্ষার্থী said="two words" empty="" many=a,b')
 
 
 class DiskFullError(Exception):

@@ -132,7 +132,7 @@ def indexing(page: Page) -> dict[str, Any]:
     else:
         same = value.reshape(-1, 2).tolist() == [[known["y"], known["x"]]]
         words = (("wanted", "সেটাই") if same else ("in another", "অন্য জায়গার") if value.size
-                 else ("without any pixel", "pixel-হীন"))  # fmt: skip
+                 else ("without any pixel", "ixel-হীন"))  # fmt: skip
     return {"a": page.parts["a"].saying(*words)}
 
 

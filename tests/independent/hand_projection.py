@@ -37,7 +37,7 @@ def to_oblong_pixel(page: Page) -> dict[str, Any]:
     v = o_y - page["f"] / page["s_y"] * y / z
     width, height = page.amounts("px")[:2]
     beside, above = not 0 <= u < width, not 0 <= v < height
-    said = {(False, False): ("inside", "ভেতরে"), (True, False): ("left or right", "বাঁয়ে"),
+    said = {(False, False): ("inside", "ভেতরে"), (True, False): ("to the left or right", "বাঁয়ে"),
             (False, True): ("above", "উপরে"), (True, True): ("corner", "কোণার")}  # fmt: skip
     return {"a": (u, v), "b": page.parts["b"].saying(*said[beside, above])}
 

@@ -11,6 +11,7 @@ import json
 import tomllib
 from collections.abc import Iterator
 from fractions import Fraction
+from functools import lru_cache
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -59,6 +60,7 @@ def printed(bank: Bank, names: list[str], seed: int, lang: str, *, figures: bool
     return list(zip(names, pages(render_paper(paper, "exam", "html")), keys, strict=True))
 
 
+@lru_cache(len(LANGS))
 def every_page(bank: Bank, seed: int, lang: str) -> Printed:
     """Each template; pictures are drawn only where a solver looks at them, for they take time."""
     names = [name for name in bank.template_paths if name in SOLVERS or seed in QUICK]

@@ -20,7 +20,7 @@ from quizgen.core.diagnostics import CODES
 from quizgen.core.errors import BankError
 
 
-def run(root: Path, *more: str, seeds: int = 20):
+def run(root: Path, *more: str, seeds: int = 6):
     shared = ("--bank", str(root), "--trust", "--seeds", str(seeds))
     return CliRunner().invoke(lint, [*shared, *more], catch_exceptions=False)
 
@@ -35,7 +35,7 @@ def test_a_mistake_gets_one_located_message_that_names_the_mend(tmp_path, row):
     template = row["file"].split("/")
     only = ("--only", template[2] if template[0] == "templates" and template[3:] else "push")
     more = () if row.get("whole") else only
-    done = run(spoilt(tmp_path, row), *more, seeds=row.get("seeds", 20))
+    done = run(spoilt(tmp_path, row), *more, seeds=row.get("seeds", 6))
     assert done.stderr.replace(f"{tmp_path}/", "").splitlines() == [row["says"]]
     assert done.exit_code == 1
 
@@ -114,7 +114,7 @@ def test_templates_of_one_name_stop_no_other_and_make_no_paper(tmp_path):
     root = write(tmp_path, {**files, **twin})
     done = run(root)
     rows = {line.split()[0]: line.split()[1] for line in done.stdout.splitlines()[1:]}
-    assert rows == {name: "0" if name == "push" else "20" for name in rows}
+    assert rows == {name: "0" if name == "push" else "6" for name in rows}
     assert len(rows) == len([name for name in files if name.endswith("template.toml")])
     with pytest.raises(BankError, match=r"forces/push.*'push': also .*other/push"):
         Bank(root, trusted=True).template("push")

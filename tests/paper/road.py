@@ -38,9 +38,11 @@ class Printed:
     mistakes: tuple[tuple[str, str], ...]
 
 
-def all_templates(bank: Bank, seed: int, lang: str = "both", level: str = "exam") -> Paper:
-    """A paper in which every template of the bank stands once; one draw serves all languages."""
-    slots = tuple(SlotRule(templates=(name,)) for name in bank.template_paths)
+def all_templates(
+    bank: Bank, seed: int, lang: str = "both", level: str = "exam", each: int = 1
+) -> Paper:
+    """A paper in which each template of the bank stands once; one draw serves all languages."""
+    slots = tuple(SlotRule(templates=(name,)) for name in [*bank.template_paths][::each])
     blueprint = Blueprint(
         {"en": "Everything"}, slots, name="everything", source="everything", level=level
     )

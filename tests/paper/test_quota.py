@@ -99,6 +99,14 @@ def test_another_question_keeps_the_quota():
         assert select_instead(SHELF, asked, ["w", "n"], 0, seed)[1] == "n"
 
 
+def test_another_question_of_a_topic_has_the_points_of_the_one_it_replaces():
+    shelf = Shelf(a={}, b={}, c={"points": 3}, d={"topic": "colour"})
+    asked = Blueprint({"en": "x"}, (), topic="optics")
+    assert select_instead(shelf, asked, ["a", "c"], 0, 1) == ["b", "c"]
+    with pytest.raises(BlueprintError, match="nothing else"):
+        select_instead(shelf, asked, ["a", "c"], 1, 1)
+
+
 @together(
     ("quota", "said"),
     [

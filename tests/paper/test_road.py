@@ -17,19 +17,20 @@ LANGS = ("en", "bn")
 NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e-?\d+)?")
 THOUSANDS = re.compile(r"-?[1-9]\d{0,2}\.\d{3}")
 SEEDS = [
-    pytest.param(seed, marks=[pytest.mark.slow] * (seed > 1))
-    for seed in range(1, draws(3, full=50) + 1)
+    pytest.param(seed, marks=[pytest.mark.slow] * (seed > 0))
+    for seed in range(draws(2, full=50) + 1)
 ]
 
 
 @pytest.fixture
 def desk(bank, tmp_path, seed):
-    return Desk(tmp_path, all_templates(bank, seed))
+    """Who writes papers of the whole bank; the first one is of every fourth template."""
+    return Desk(tmp_path, all_templates(bank, seed, each=1 if seed else 4))
 
 
 def filled_in(seed: int) -> tuple[str, ...]:
     """The first paper in every language, the others in turn: all of them have the same key."""
-    return LANGS if seed == 1 else (LANGS[seed % len(LANGS)],)
+    return (LANGS[seed % len(LANGS)],) if seed else LANGS
 
 
 @pytest.mark.parametrize("seed", SEEDS)
@@ -38,7 +39,7 @@ def test_what_is_printed_is_marked_as_it_was_meant(desk, seed):
     papers = {lang: list(fields(desk.paper, lang)) for lang in filled_in(seed)}
     sheets: list[tuple[str, Any]] = []
     for lang, printed in papers.items():
-        assert len(printed) >= 230
+        assert len(printed) >= (230 if seed else 50)
         desk.toml({field.id: typed(field, field.answer) for field in printed})
         desk.json({field.id: typed(field, field.answer, side=1) for field in printed}, lang)
         for _both_separators in range(2):
@@ -103,7 +104,7 @@ def _told(field: Printed, found: dict[str, dict]) -> tuple[str, ...]:
     return (field.template, field.id, field.hint, part["typed"], part["status"], part["message"])
 
 
-@pytest.mark.parametrize("seed", [1])
+@pytest.mark.parametrize("seed", [0])
 def test_no_order_is_lost_in_a_reader_that_sorts(desk, tmp_path):
     """Objects of JSON have no order; another program may sort them, and nothing may change."""
     printed = list(fields(desk.paper, LANGS[0]))

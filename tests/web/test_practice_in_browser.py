@@ -368,6 +368,19 @@ def test_boxes_are_labelled_by_what_they_ask(practised):
     assert [one.split() for one in labels] == [["(1)", "V"], ["(2)", "S"], ["(3)", "H"]]
 
 
+def test_gaps_are_filled_in_their_sentences(practised, barriers):
+    page = practised("mixing-kind-and-primaries")
+    gaps = page.locator(".gaps li input")
+    expect(gaps).to_have_count(4)
+    expect(page.locator(".stage")).not_to_contain_text("____")
+    for gap in gaps.all():
+        gap.fill("violet")
+    page.get_by_role(BUTTON, name="Check").click()
+    expect(page.locator(".verdict.wrong")).to_contain_text("1, 2, 3, 4")
+    expect(gaps.first).to_have_value("violet")
+    assert barriers(page) == []
+
+
 def test_a_derivation_is_read_line_by_line_as_it_is_written(practised):
     """By keyboard alone: Enter ends a line, Tab the last; what is said moves no focus."""
     page = practised("derive-perspective-projection")

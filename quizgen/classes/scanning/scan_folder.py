@@ -322,7 +322,8 @@ def name_stray(one: PageReading) -> str:
 
 def find_page_pictures(folder: ClassFolder, head: PrintedHead) -> list[Path]:
     """Return the pictures of the scanned pages of a student's sheet, with what was read."""
-    return sorted((folder.path / SCANS / head.code).glob(f"{PAGE}-*.jpg"))
+    found = (folder.path / SCANS / head.code).glob(f"{PAGE}-*.jpg")
+    return sorted(found, key=lambda path: [int(one) for one in path.stem.split("-")[1:]])
 
 
 def find_crop(folder: Path, head: PrintedHead, part: str) -> Path | None:

@@ -271,6 +271,12 @@ def _stems(word: str) -> frozenset[str]:
     ))  # fmt: skip
 
 
+@lru_cache(maxsize=8192)
+def _order_stems(word: str) -> tuple[str, ...]:
+    """Return the stems of a word, the longest first: the order of a set differs between runs."""
+    return tuple(sorted(_stems(word), key=lambda stem: (-len(stem), stem)))
+
+
 @lru_cache(maxsize=65536)
 def is_form_of(word: str, wanted: str, *, slips: bool = True) -> bool:
     """Return whether a word is a form of the wanted one, or with ``slips`` one of the fingers."""
@@ -363,9 +369,12 @@ class Subject:
     def find(
         self, tokens: Sequence[WordToken], place: int
     ) -> tuple[tuple[tuple[str, ...], ...], int]:
-        """Return the group of which a row stands at a token, the longest; and its length."""
+        """Return the group of which a row stands at a token, the longest; and its length.
+
+        Of rows of one length, that counts which shares the longest stem with the token.
+        """
         best: tuple[tuple[tuple[str, ...], ...], int] = ((), 0)
-        for stem in _stems(tokens[place].text):
+        for stem in _order_stems(tokens[place].text):
             for index, row in self._begins.get(stem, ()):
                 if len(row) > best[1] and _has_stems(tokens, place, row):
                     best = (self.groups[index], len(row))

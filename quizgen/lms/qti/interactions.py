@@ -75,9 +75,9 @@ def _render_number(interaction: NumericInteraction, rules: ResponseRules) -> Ren
     """Return a numeric interaction: two comparisons for each interval."""
     right = [_is_within(one, rules) for one in interaction.ranges if one.right]
     wrong = [
-        (_is_within(one, rules), one.feedback)
+        (_is_within(one, rules), one.feedback, one.share)
         for one in interaction.ranges
-        if not one.right and one.feedback
+        if not one.right and (one.feedback or one.share)
     ]
     declaration = rules.declare_response(
         "single float", [format_number_plain(interaction.key.value)]
@@ -106,7 +106,7 @@ def _render_text(interaction: TextEntryInteraction, rules: ResponseRules) -> Ren
         return rules.tag("stringMatch", how, rules.response_variable(), text)
 
     right = [is_same(typed) for typed in interaction.right]
-    wrong = [(is_same(typed), words) for typed, words in interaction.wrong if words]
+    wrong = [(is_same(typed), words, 0.0) for typed, words in interaction.wrong if words]
     declaration = rules.declare_response("single string", interaction.right[:1])
     body = Markup("<p>{}{}</p>").format(rules.label, _text_entry(rules))
     return _render_typed(rules, declaration, body, right, wrong)
@@ -122,19 +122,19 @@ def _render_typed(
     declaration: Markup,
     body: Markup,
     right: list[Markup],
-    wrong: Sequence[tuple[Markup, FeedbackText]],
+    wrong: Sequence[tuple[Markup, FeedbackText, float]],
 ) -> RenderedInteraction:
     """Return a typed interaction: all marks for the key, feedback for a misconception.
 
-    ``right`` are conditions, ``wrong`` conditions with feedback; the first that holds counts.
+    ``right`` are conditions, ``wrong`` conditions with feedback and the share of the marks that the
+    mistake still earns; the first that holds counts.
     """
     name = rules.feedback_name
-    feedback = [FeedbackElement(name, f"M{i}", words) for i, (_, words) in enumerate(wrong, 1)]
+    feedback = [FeedbackElement(name, f"M{i}", words) for i, (_, words, _) in enumerate(wrong, 1)]
     cases = [(rules.any_of(right), rules.set_score(rules.points))]
-    cases += [
-        (condition, rules.set_feedback(name, one.value))
-        for one, (condition, _) in zip(feedback, wrong, strict=True)
-    ]
+    for one, (condition, _, share) in zip(feedback, wrong, strict=True):
+        earned = rules.set_score(rules.points * share) if share else _EMPTY
+        cases.append((condition, earned + rules.set_feedback(name, one.value)))
     outcomes = rules.declare_feedback(name) if feedback else _EMPTY
     return RenderedInteraction(declaration, body, rules.first_case(cases), outcomes, feedback)
 

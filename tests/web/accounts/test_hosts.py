@@ -24,6 +24,9 @@ def test_names_that_were_asked_for_are_served():
     assert named.is_own_name("quiz.school.example")
     assert not named.is_own_name("school.example")
     assert named.base_url(8000) == "https://quiz.school.example"
+    at_home = ServerSettings("sqlite://", phone=True)
+    assert at_home.base_url(8000) == "http://127.0.0.1:8000"
+    assert ServerSettings("sqlite://", host="::1").base_url(8000) == "http://[::1]:8000"
     alone = ServerSettings("sqlite://")
     assert not alone.accounts
     assert not alone.is_own_name("192.168.1.5")
