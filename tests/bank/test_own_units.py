@@ -137,7 +137,7 @@ def test_no_question_of_the_built_in_bank_holds_definitions():
     ("wrong", "said"),
     [
         ('units = ["haul = hu"]', r"bank\.toml:1: units: .*unknown unit 'hu'"),
-        ('requires = ">=99"', r"bank\.toml:1: requires: quizgen >=99, and this is 0\.1"),
+        ('requires = ">=99"', r"bank\.toml:1: requires: quizgen >=99, and this is 1\.0"),
         ('requires = "new"', r"bank\.toml:1: requires: 'new' is not like"),
     ],
 )
