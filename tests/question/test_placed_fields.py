@@ -154,7 +154,7 @@ def test_on_a_page_inputs_and_lists_stand_in_the_sentence(paper):
 
 def test_in_print_blanks_are_ruled_and_options_have_boxes(paper):
     source = typst_sources(paper, "exam")["main.typ"].decode()
-    assert source.count("stroke: (bottom: 0.5pt") == 3
+    assert source.count("#blank(") == 3
     assert "higher" in source
     assert "answer-line" not in source
     assert render_paper_pdf(paper, "exam").startswith(b"%PDF")
