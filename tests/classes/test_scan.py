@@ -383,6 +383,20 @@ def test_a_class_without_sheets_says_so(folder, blanks, tmp_path, capsys):
     assert "is not the folder of a class" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("wrong", [{"x": 0.5}, {"y": 296.0}, {"w": -4.0}, {"h": 1e9}])
+def test_boxes_that_lie_on_no_page_are_an_error_in_one_line(
+    folder, blanks, tmp_path, wrong, capsys
+):
+    save_scan(blanks["7"], tmp_path / "a", "200")
+    keys = folder / "keys.jsonl"
+    table = [json.loads(line) for line in keys.read_text("utf-8").splitlines()]
+    for line in table:
+        next(one for one in line["sheet"]["fields"] if one["kind"] == "box").update(wrong)
+    keys.write_text("".join(json.dumps(line) + "\n" for line in table), "utf-8")
+    assert run("class", "scan", folder, tmp_path / "a.jpg") == 2
+    assert "places of a sheet that lie on no page" in capsys.readouterr().err
+
+
 def test_two_pictures_of_a_page_must_agree_and_a_missing_page_is_neither_right_nor_wrong(
     folder, lines
 ):

@@ -71,6 +71,10 @@ INKY = 0.0005
 """Share of a page that ink covers, if there is more on it than dust."""
 CROP = 2.0
 """Millimetres around the fields of a part on its picture."""
+SHORTEST, LONGEST = 100.0, 450.0
+"""Sides of paper in mm."""
+EDGE = 2.5
+"""Millimetres of margin that a box keeps."""
 LABEL = 11.0
 """Millimetres left of the fields that the name of the part takes."""
 PAGE = "page"
@@ -229,7 +233,7 @@ def read_student_sheet(path: Path, at: int) -> StudentSheet:
     Raises
     ------
     ClassError
-        If the paper has none.
+        If the paper has none, or places that lie on no page.
     """
     with path.open("rb") as stream:
         stream.seek(at)
@@ -241,8 +245,25 @@ def read_student_sheet(path: Path, at: int) -> StudentSheet:
         raise ClassError(
             f"{path.parent}: has no papers or sheets to read (quizgen class make --scan, --sheet)"
         )
+    if not _is_on_page(found.sheet):
+        raise ClassError(f"{path}: byte {at}: places of a sheet that lie on no page; make it again")
     kinds = {part.id: part.spec.kind for one in found.key.questions for part in one.parts}
     return StudentSheet(found.sheet, kinds)
+
+
+def _is_on_page(places: SheetPlaces) -> bool:
+    """Return whether a sheet is as large as paper and has its marks, code and fields on it.
+
+    Boxes keep a margin: their frames are looked for around the place where they should be.
+    """
+    width, height = places.size
+    squares = ((x, y, side, side, 0.0) for x, y, side in (*places.marks, places.code))
+    fields = ((f.x, f.y, f.w, f.h, EDGE if f.kind == "box" else 0.0) for f in places.fields)
+    return all(SHORTEST <= side <= LONGEST for side in places.size) and all(
+        edge <= x and edge <= y and w > 0 and h > 0 and x + w <= width - edge
+        and y + h <= height - edge
+        for x, y, w, h, edge in (*squares, *fields)
+    )  # fmt: skip
 
 
 @lru_cache(maxsize=1)
