@@ -72,6 +72,8 @@ RARE = 3
 """Times that every mistake is typed back, as far as it is met."""
 VARIED = 4
 """Different questions whose answers cannot all be the same by chance."""
+ENOUGH = 20
+"""Draws after which a mistake that never gave a wrong answer is one that never does."""
 AT_ONCE = 50
 """Draws that are timed as one."""
 LEVELLED = 1
@@ -233,7 +235,7 @@ def _examine_draws(
                 "QG207", template.file, f"trap {trap!r} never gives a usable wrong answer", _DRAW
             )
             for trap in part.traps
-            if not report.traps[trap]
+            if not report.traps[trap] and report.seeds >= ENOUGH
         ]
     return first
 

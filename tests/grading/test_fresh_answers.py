@@ -161,7 +161,6 @@ ACCEPTED_BY_RULE: dict[tuple[str, str], str] = {
     ("two-gaussians-in-a-row.a", "6.53 px"): _LAST_PLACE,
     ("field-of-view.a", "40.2°"): _LAST_PLACE,
     ("field-of-view.a", "40.4°"): _LAST_PLACE,
-    ("confidence-interval.a", "34.7; 45.3"): _LAST_PLACE,
     ("price-abroad.a", "175.45"): _LAST_PLACE,
     ("true-or-false-colour.a", "2"): "statements are numbered as options are: 2 is false",
 }

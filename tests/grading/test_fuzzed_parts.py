@@ -12,6 +12,7 @@ import pytest
 from msgspec import to_builtins
 
 from quizgen.bank.bank import builtin_bank
+from quizgen.kinds.derivation import DerivationSpec
 from quizgen.kinds.grade import grade_answer, load_spec, show_key
 from quizgen.question.compose import draw_instance
 from quizgen.question.part_context import ask_part
@@ -141,10 +142,24 @@ def test_random_strings_are_right_only_where_an_option_is_named():
     for number in range(5_000):
         name, spec = source.choice(parts())
         typed = random_text(source, number)
-        if grade_answer(spec, typed).verdict == "correct":
+        verdict = grade_answer(spec, typed)
+        if verdict.verdict == "correct":
             table = to_builtins(spec)
-            accepted += [] if names_the_option(table, typed) else [(name, typed)]
+            concluded = typed.removeprefix("-> ") == verdict.read_as  # as a person writes it
+            accepted += [] if concluded or names_the_option(table, typed) else [(name, typed)]
     assert accepted == []
+
+
+def test_what_is_true_of_a_letter_alone_earns_nothing_in_a_derivation():
+    earned = [
+        (name, line)
+        for name, spec in parts()
+        if isinstance(spec, DerivationSpec)
+        for letter in spec.symbols
+        for line in (f"{letter} = {letter}", f"{letter} != -24", f"{letter} > -1000")
+        if grade_answer(spec, line).credit
+    ]
+    assert earned == []
 
 
 def test_mutations_of_right_answers_neither_crash_nor_hang():

@@ -281,7 +281,7 @@ class DerivationMarker:
         if goal.op != "eq":
             return any(self._follows(form, relation) for form in self.forms[self.goal_name])
         most = _size(goal.right)
-        return any(
+        return relation.op == "eq" and any(
             own == goal.left
             and names_in(other) <= names_in(goal.right)
             and _size(other) <= most + max(1, most // 4)
@@ -396,7 +396,7 @@ class DerivationMarker:
 
     def _is_solved_for_goal(self, relation: Relation) -> bool:
         """Return whether a relation says what the left side of the goal is, by free names alone."""
-        return any(
+        return relation.op == "eq" and any(
             own == self.goal.left and not names_in(other) & {*self.derived}
             for own, other in _both_ways(relation)
         )

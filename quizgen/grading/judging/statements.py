@@ -401,6 +401,11 @@ def read_subject(synonyms: tuple[tuple[str, ...], ...]) -> Subject:
     return Subject(synonyms)
 
 
+def _is_condition(words: Sequence[str], index: int) -> bool:
+    """Return whether a word says under what condition a clause holds: *without a lens, ...*."""
+    return index == 0 and len(words) > LONGEST_NOUN + 1 and words[0] in _vocabulary().conditions
+
+
 def _read_example(text: str, meaning: Meaning, subject: Subject) -> Example:
     """Return an example of an idea, ready to be looked for."""
     known = _vocabulary()
@@ -413,7 +418,8 @@ def _read_example(text: str, meaning: Meaning, subject: Subject) -> Example:
         while place < len(tokens):
             item, length = _read_item(tokens, place, subject)
             words = [token.text for token in tokens[place : place + length]]
-            if item is None and words[0] in known.denials | known.ahead:
+            denies = item is None and words[0] in known.denials | known.ahead
+            if denies and not _is_condition([token.text for token in tokens], place):
                 denied = not denied
             compared |= item is None and words[0] in known.than | known.than_behind
             steps[-1] += [item] if item else []
@@ -653,7 +659,7 @@ class Statement:
             if word in known.denials:
                 clause.denials.append(place)
                 clause.whole += self._is_whole(words, index)
-            elif word in known.ahead and not self._is_condition(words, index):
+            elif word in known.ahead and not _is_condition(words, index):
                 clause.ahead.append(place)
             if word in known.than and any(
                 name == "amount" for one in words[:index] for name, _ in _scales_of(one)
@@ -661,10 +667,6 @@ class Statement:
                 clause.compared |= set(clause.places[index + 1 :])
             elif word in known.than_behind and index:
                 clause.compared |= set(clause.places[max(index - 1, 0) : index])
-
-    def _is_condition(self, words: Sequence[str], index: int) -> bool:
-        """Return whether a word says under what condition a clause holds: *without a lens, ...*."""
-        return index == 0 and len(words) > LONGEST_NOUN + 1 and words[0] in _vocabulary().conditions
 
     def _is_whole(self, words: Sequence[str], index: int) -> bool:
         """Return whether a denial covers its clause, not just what follows: ``thin, not thick``."""

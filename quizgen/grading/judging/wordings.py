@@ -97,11 +97,11 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
     ]
     if len(same) == 1:
         return same[0]
+    names = _list_names_of(typed) - {said}
     named = [
-        place
-        for place, wording in enumerate(wordings, 1)
-        if _list_names_of(typed) - {said} <= _list_names_of(wording) and _APART.search(typed)
-    ]
+        place for place, wording in enumerate(wordings, 1)
+        if names and names <= _list_names_of(wording)
+    ]  # fmt: skip
     if len(named) == 1:
         return named[0]
     known = frozenset().union(*listed)
@@ -138,7 +138,7 @@ def _list_names_of(wording: str) -> set[frozenset[str]]:
     ``the long ones, 600 to 700 nm (red)`` has three names.
     """
     parts = _APART.split(wording) if _APART.search(wording) else []
-    return {frozenset(_split_words(part)) for part in (wording, *parts)}
+    return {frozenset(_split_words(part)) for part in (wording, *parts)} - {frozenset()}
 
 
 _APART = re.compile(r"(?<!\d)[,;](?= )|(?<=\d)[,;](?= [^\W\d])|[()]")

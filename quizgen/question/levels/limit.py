@@ -39,6 +39,8 @@ SHOWN = (10, 100, 1000)
 """How many times as large, or as small, a quantity is in the values that a solution shows."""
 FAR = fmpq(1, 50)
 """Share of the way that may be left to go at the last of them."""
+APART = fmpq(1, 20)
+"""Share of the limit by which the value of the task must differ, so that it is a mistake."""
 BOUNDED = frozenset({"", "%", "deg", "rad", "px", "bit", "byte", "stop", "dB"})
 """Units of what cannot grow without bound."""
 
@@ -155,8 +157,9 @@ def _find_limit(drawn: Variant, target: str, given: str, *, grows: bool) -> Limi
     if scaling_exponent(target, given, formulas) is not None:
         return None
     value = find_limit(target, given, formulas, drawn.values, grows=grows)
-    if value is None or value == drawn.values[target]:
-        return None
+    with working_precision():
+        if value is None or not abs(drawn.values[target] - value) > APART * abs(value):
+            return None
     way = [scale_freely(drawn, given, Fraction(n) if grows else Fraction(1, n)) for n in SHOWN]
     there = tuple(one for one in way if one is not None and has_same_formulas(drawn, one, steps))
     if len(there) < len(SHOWN):
