@@ -50,6 +50,8 @@ PRINT = 235
 """Grey of a blank page below which something is printed."""
 MARGIN = (5.2, 2.4)
 """Millimetres left of a box, and on its other sides, where ink beside it may mean it."""
+LETTER_AT = (0.4, 5.0)
+"""Millimetres right of a box between which its letter stands."""
 FEWEST_PIXELS, LONGEST_SPECK = 12, 5
 """Half pixels of ink beside all fields, and how long it is, that are no dirt."""
 WRITTEN = 5
@@ -233,6 +235,8 @@ def _has_ink_beside(
     around = ink.labels[top:bottom, left:right]
     if ink.loose.intersection(map(int, np.unique(around))):
         return True
+    if _is_letter_crossed(box, ink):
+        return True
     x, y, right, bottom = _bound_pixels(box, 0.4, scale)
     for piece in np.unique(ink.labels[y:bottom, x:right]):
         if piece:
@@ -241,6 +245,17 @@ def _has_ink_beside(
             if out >= OVERHANG and not _goes_through(int(piece), box, ink, boxes, found):
                 return True
     return False
+
+
+def _is_letter_crossed(box: SheetField, ink: InkMap) -> bool:
+    """Return whether ink is left around the letter that is printed right of a box.
+
+    Print hides most of a cross over it: what sticks out are specks, which count together.
+    """
+    scale = SHARP * HALF
+    left, right = (round((box.x + box.w + more) * scale) for more in LETTER_AT)
+    top, bottom = (round(y * scale) for y in (box.y - LETTER_AT[0], box.y + box.h + LETTER_AT[0]))
+    return int((ink.labels[top:bottom, left:right] > 0).sum()) >= FEWEST_PIXELS
 
 
 def _goes_through(
