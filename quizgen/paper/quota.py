@@ -250,12 +250,12 @@ class _Draft:
             keys = [drawn[2 * n : 2 * n + 2] for n in range(turn * count, (turn + 1) * count)]
             before = dict(self.chosen)
             for place in sorted(range(count), key=keys.__getitem__):
-                self._put(place, None)
+                self._fill_place(place, None)
                 care = 2 if turn else int(not self.attempt)
                 best = self._choose_template(place, keys[place][1], care)
                 if best is None:
                     return []
-                self._put(place, best)
+                self._fill_place(place, best)
             if turn and self.chosen == before:
                 break
         return [self.chosen[place] for place in range(count)]
@@ -264,7 +264,7 @@ class _Draft:
         """Return how many questions more than may be are shared with all papers together."""
         return sum(count - self.round.shared for count in self.alike if count > self.round.shared)
 
-    def _put(self, place: int, one: Candidate | None) -> None:
+    def _fill_place(self, place: int, one: Candidate | None) -> None:
         """Put a template at a place, or take away what stands there."""
         step = -1 if one is None else 1
         if one is None:

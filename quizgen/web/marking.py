@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import getpass
 import secrets
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, lru_cache
@@ -361,8 +361,15 @@ def _draw_view(index: AnswerIndex, student: str, template: str, lang: str) -> Qu
 
 async def save_decision(request: Request) -> Response:
     """Write the decision on the ticked answers of a card; redirect to the next one."""
+    return await _save_and_go_on(request, _save_decision)
+
+
+async def _save_and_go_on(
+    request: Request, save: Callable[[FormData, Marker, MarkingDesk], str]
+) -> Response:
+    """Save what a form says, and go where that leads; to the list if nothing is left to decide."""
     form, who, desk = await read_form(request), get_marker(request), _get_desk(request)
-    following = await run_in_threadpool(_save_decision, form, who, desk)
+    following = await run_in_threadpool(save, form, who, desk)
     return redirect(following) if following else _leave_cards(request)
 
 
@@ -439,9 +446,7 @@ def _read_decision(
 
 async def save_typed(request: Request) -> Response:
     """Take what a marker read on a picture as the answer; redirect to the next card."""
-    form, who, desk = await read_form(request), get_marker(request), _get_desk(request)
-    following = await run_in_threadpool(_save_typed, form, who, desk)
-    return redirect(following) if following else _leave_cards(request)
+    return await _save_and_go_on(request, _save_typed)
 
 
 def _save_typed(form: FormData, who: Marker, desk: MarkingDesk) -> str:
