@@ -122,10 +122,13 @@ def _served(
 
 
 def agrees(shown: str, printed: str) -> bool:
-    """Whether a page shows what was printed.
+    """Whether a page shows what was printed: a line ``...`` stands for any lines, also for none.
 
     The environment lies outside the copy, which is why uv must be told the project.
     """
     printed = re.sub(r" --project (?:'[^']*'|\S+)", "", printed)
-    pattern = re.escape(shown.strip()).replace(re.escape("..."), ".*")
-    return re.fullmatch(pattern, printed.strip()) is not None
+    pattern = "".join(
+        r"(?:[^\n]*\n)*?" if line == "..." else re.escape(line).replace(r"\.\.\.", ".*") + r"\n"
+        for line in shown.strip().splitlines()
+    )
+    return re.fullmatch(pattern, printed.strip() + "\n") is not None
