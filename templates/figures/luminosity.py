@@ -36,7 +36,7 @@ _FLOOR = 1e-4  # of the logarithmic axis
 _LEVELS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
 _DECADES = range(-4, 1)
 _FINE = [decade + log10(digit) for decade in _DECADES[:-1] for digit in range(2, 10)]
-_NAMED = {0: ((606.0, 622.0, 588.0), (457.0, 490.0, 435.0)), 1: ((692.0,), (622.0,))}
+_NAMED = {0: ((606.0, 622.0, 588.0, 572.0), (457.0, 490.0, 435.0)), 1: ((692.0,), (622.0,))}
 """Where V and V' may be named in nm, by the axis: the first place that no mark runs through."""
 _NAME_WIDTH = 28.0
 
