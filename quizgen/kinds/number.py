@@ -38,7 +38,7 @@ from quizgen.grading.reading.quantities import TypedQuantity
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.reading.units import TypedUnit, listed_unit
 from quizgen.grading.rounding import format_key
-from quizgen.grading.spec import ScalarSpec, is_whole_number
+from quizgen.grading.spec import ScalarSpec, is_large_count
 from quizgen.grading.verdict import Verdict, attach_values, unreadable, wrong
 from quizgen.kinds import quantity
 from quizgen.kinds.asking import (
@@ -93,7 +93,7 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
     @property
     def is_whole(self) -> bool:
         """Whether a whole number of things is counted."""
-        return bool(self.counts) and is_whole_number(parse_exact(self.value))
+        return bool(self.counts) and is_large_count(parse_exact(self.value))
 
     def value_unit(self) -> str:
         """Return the unit printed next to the field; a percentage stands for a plain fraction."""

@@ -21,7 +21,7 @@ from quizgen.grading.reading.numbers import ReadNumber
 from quizgen.grading.reading.quantities import TypedQuantity
 from quizgen.grading.reading.units import TypedUnit, listed_unit
 from quizgen.grading.rounding import format_key
-from quizgen.grading.spec import COUNTED, ScalarSpec, is_whole_number
+from quizgen.grading.spec import COUNTED, ScalarSpec, is_large_count
 from quizgen.grading.verdict import HALF, Verdict, attach_values, partial, wrong
 from quizgen.kinds.asking import (
     accept_within_tolerance,
@@ -72,7 +72,7 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
     @property
     def is_whole(self) -> bool:
         """Whether a whole number of bytes, bits or pixels is asked."""
-        return self.unit in COUNTED and is_whole_number(parse_exact(self.value))
+        return self.unit in COUNTED and is_large_count(parse_exact(self.value))
 
     def value_unit(self) -> str:
         """Return the unit of the key."""

@@ -14,6 +14,7 @@ from functools import cache
 from typing import Literal, NamedTuple, TypeAlias
 
 from quizgen.core.errors import FormulaError
+from quizgen.grading.reading.bound_values import bind_values
 from quizgen.grading.reading.factor_words import is_shrinking
 from quizgen.grading.reading.joined_values import rejoin_values, repeat_value
 from quizgen.grading.reading.labels import NAME, AskedNames, find_name
@@ -54,6 +55,12 @@ _LIST_MARK = re.compile(r"^\(?[a-h]\) *(?=\S)")
 _ARROW = re.compile(r"^(?:∴|⇒|=>|→|->|>>>|≈|=) *(?=\S)")
 _SIGNED = re.compile(r"^(?:minus|negative|মাইনাস|ঋণাত্মক) +(?=\S)", re.IGNORECASE)
 _PER_CENT = re.compile(r"(?<=\d) *(?:per cent|percent|prozent|শতাংশ)(?!\w)", re.IGNORECASE)
+_SPOKEN_SHARE = re.compile(r" *(?:point|komma) [^\W\d_]+", re.IGNORECASE)
+"""A number that begins with its decimal sign in words; ``point`` is what some questions ask for."""
+_MODULUS = re.compile(r"(?<=[\d)]) ?% ?(?=\d+ ?(?:=|$))")
+_THOUSANDS = re.compile(r"(?<=\d)k(?!\w)")
+"""A thousand as in ``13.5k``; the unit of temperatures is a capital letter."""
+_SPOKEN_POINT = re.compile(r"(?<=\d) (?:point|komma|দশমিক) (?=\d)", re.IGNORECASE)
 _ORDINAL = re.compile(r"(?<=\d)(?:st|nd|rd|th|stel|tel)(?![^\W\d_])")
 _OF_A = re.compile(r"(?<=\d) (?:of|von) (?:an?|one|the|einer|einem|der)? ?(?=[^\W\d_])")
 _LETTERS = r"(?:[^\W\d_]|[\u0981-\u0983\u09bc\u09be-\u09cd\u09d7])"
@@ -128,6 +135,17 @@ def _load_around_words() -> _AroundWords:
 
 
 _NO_UNIT_BEFORE_A_WORD = frozenset({"in", "a", "as", "at", "am", "um", "d", "to", "so", "is"})
+_ROUNDING = re.compile(
+    r"[ ,(]+(?:rounded|gerundet) (?:to|auf) \w+ (?:significant |signifikante )?"
+    r"(?:decimal|digit|figure|place|stelle|nachkommastelle|ziffer)s?n?(?: places)?\)?$",
+    re.IGNORECASE,
+)
+_BECOMING = re.compile(
+    r"^([^\d]*(?:drop|fall|rise|wrap|goe|come|grow|change|sink|amount|shrink|increase|decrease|lead|"
+    r"saturate|clip|clamp|round)(?:s|ed|ped|es)?(?: (?:around|round|down|up|back|over|it))?) to (?=[-+−≈~]?[.,]?\d)",
+    re.IGNORECASE,
+)
+"""What tells where a value goes, ``it drops to 208``: ``to`` is no range then."""
 _CALLED = re.compile(r"[\w-]\(?$|-\s*$")
 """A call of a function, or a dash, right before a number."""
 _BETWEEN = re.compile(r"[\s\w.,:;\u0980-\u09ff-]*")
@@ -170,7 +188,7 @@ def list_plainer_texts(
     if plain != typed:
         yield plain
     if form in {"number", "quantity", "values"}:
-        spelt = _write_words_as_numbers(plain)
+        spelt = _write_words_as_numbers(typed if _SPOKEN_SHARE.match(typed) else plain)
         if form == "values":
             spelt = _write_items_as_numbers(spelt)
         if spelt != plain:
@@ -178,6 +196,7 @@ def list_plainer_texts(
         if form == "values":
             yield from separate_labelled_values(spelt, names)
             yield from rejoin_values(spelt, len(names), ranges=ranges)
+            yield from bind_values(spelt, names, scan_numbers)
         else:
             yield from _single_answer(spelt, form)
             yield from _find_conclusion(spelt)
@@ -185,7 +204,7 @@ def list_plainer_texts(
 
 def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
     """Yield the one number among words; a quantity needs its unit if words follow."""
-    named_by, text = text, _NAMED.sub("", text)
+    named_by, text = text, _BECOMING.sub(r"\1 ", _ROUNDING.sub("", _NAMED.sub("", text)))
     if text != named_by:
         yield text
     remarked = _REMARKED.fullmatch(text)
@@ -251,6 +270,21 @@ def drop_bullets(typed: str) -> str:
     return _BULLET.sub("", typed)
 
 
+def drop_counting(typed: str) -> str:
+    """Return several values without the numbers that count them off: ``1: 141, 2: 56``."""
+    counted = list(_COUNTED.finditer(typed))
+    if len(counted) < _FEWEST or counted[0].start():
+        return typed
+    if [int(mark[1]) for mark in counted] != list(range(1, len(counted) + 1)):
+        return typed
+    ends = [*(mark.start() for mark in counted[1:]), len(typed)]
+    values = (typed[mark.end() : end] for mark, end in zip(counted, ends, strict=True))
+    return "; ".join(value.strip(" ,;\n") for value in values)
+
+
+_COUNTED = re.compile(r"(?:^|[,;\n] *| )\(?(\d)(?:[.)]|:(?=\s)) *(?=[-+−~≈]?[.,]?\d)(?<=[\s):])")
+
+
 def drop_markup(typed: str) -> str:
     """Return the answer without marks of Markdown and emoji."""
     text = _MARKDOWN.sub(lambda m: m[2] or m[3], _EMOJI.sub("", typed)) or typed
@@ -287,20 +321,22 @@ def _write_words_as_numbers(text: str) -> str:
     text = typed_array[1] if typed_array else text
     signed = _SIGNED.sub("", text)
     sign = "-" if signed != text and not signed.startswith(("-", "−", "–")) else ""
-    spelt = signed if sign else text
+    spelt = _SPOKEN_POINT.sub(".", _THOUSANDS.sub(" thousand", signed if sign else text))
     if not any(map(str.isdigit, spelt)):
         spelt = replace_number_word(spelt)
     if not any(map(str.isdigit, spelt)):
         spelt = replace_only_number_word(spelt)
     spelt = _OF_A.sub(" ", _ORDINAL.sub("", _PER_CENT.sub(" %", spelt)))
-    return sign + add_mixed_units(add_large_words(spelt))
+    return sign + add_mixed_units(add_large_words(_MODULUS.sub(" mod ", spelt)))
 
 
 def _write_items_as_numbers(text: str) -> str:
     """Return several values with those in words as digits, and without remarks in brackets."""
     text = _REMARK.sub(lambda m: m[0] if says_otherwise(m[0]) else "", text)
     pieces = _ITEMS.split(_MINUS.sub("-", text))
-    return "".join(replace_number_word(piece) if piece.isalpha() else piece for piece in pieces)
+    return "".join(
+        piece if any(map(str.isdigit, piece)) else replace_number_word(piece) for piece in pieces
+    )
 
 
 _REMARKED = re.compile(r"([-+−]?\d[^()]*?) ?\(([^\W\d][^()\d]*)\)")

@@ -26,6 +26,7 @@ from quizgen.grading.reading.numbers import (
     scale_number,
 )
 from quizgen.grading.reading.quantities import TypedQuantity, split_quantity
+from quizgen.grading.reading.quantity_formulas import read_quantity_formula
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.reading.units import TypedUnit, listed_unit, read_unit
 from quizgen.maths.notation import FormulaReadError
@@ -133,6 +134,9 @@ def _iter_lenient_sides(source: SourceText, decimal: str) -> Iterator[EqualitySi
     Nothing is yielded where a side of digits alone, or the last one, cannot be read.
     """
     pieces = [piece for piece in _split_at_equal_signs(source) if piece.text]
+    if len(pieces) == 1 and (worked := read_quantity_formula(pieces[0], decimal)):
+        yield EqualitySide(TypedQuantity(pieces[0], worked[1]), worked[0])
+        return
     if len({piece.text for piece in pieces}) < len(pieces):
         return
     sides: list[EqualitySide] = []
