@@ -25,6 +25,7 @@ _NUMBERED = re.compile(
 """A noun with its number before a value, ``pixel 1: 141``."""
 _NUMBERED_BEHIND = re.compile(rf"(?:for|at|in|of|für|bei) ({_LETTER}{{2,}}) (\d)(?= *(?:[,;)\n]|and |und |$))")
 _COUNTED_OFF = re.compile(r"(?:(?<=[\s,;])|^)\(?(\d)(?:[.)]|:(?! *\d+ *:)) +(?=[-+−~≈]?[.,]?\d)")
+_ASSIGNED = re.compile(r"[=:≈] *$")
 _PARTED = re.compile(r"[;\n]|,(?!\d)|,? (?:and|und|ও|এবং|with|mit|while|während) ")
 _WORDS = re.compile(rf"{_LETTER}+(?:'|_?\d|_{_LETTER}+)*(?![^\W_])|_\d")
 _MARK = "_"
@@ -94,6 +95,8 @@ def _list_labelled(text: str, count: int, scan: NumberScan) -> Iterator[list[tup
     """
     pieces = [piece for piece in _PARTED.split(text) if piece and piece.strip()]
     scanned = [scan(piece) for piece in pieces]
+    if any(_ASSIGNED.search(around[0]) and _list_words(around[-1]) for _, around in scanned):
+        return  # a word behind ``S = 2`` says something about it
     if len(pieces) == count and all(len(found) == 1 for found, _ in scanned):
         yield [(found[0], _list_words(" ".join(around))) for found, around in scanned]
         yield [  # what was taken for a unit may be the name: ``2 bytes``
@@ -129,7 +132,8 @@ def _find_meant(words: list[str], names: AskedNames, asked: list[str]) -> str | 
             break
     found |= {_find_by_place(word, names, asked) for word in words}
     found -= {""}
-    return None if len(found) > 1 else next(iter(found), "")
+    strange = any(len(word) == 1 and word not in {"a", "i"} for word in words)
+    return None if len(found) > 1 or (strange and len(words) > 1) else next(iter(found), "")
 
 
 def _find_by_place(word: str, names: AskedNames, asked: list[str]) -> str:
