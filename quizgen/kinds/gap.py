@@ -21,6 +21,7 @@ from quizgen.grading.judging.spelling import (
     is_another_word,
     nearest_terms,
 )
+from quizgen.grading.judging.wordings import load_translations
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.normalise import ANSWER, PICTURES, apply_rewrite, refuse_invisible
@@ -299,16 +300,6 @@ def _judge_gap(spec: GapSpec, gap: list[str], word: str) -> Verdict:
     return _judge_by_nearest_term(spec, word, gap, others)
 
 
-@cache
-def _load_translations() -> dict[str, tuple[str, ...]]:
-    """Return common words of other languages, folded, with what they say in English."""
-    return {
-        fold_word(word): tuple(said)
-        for lang in list_languages()
-        for word, said in load_words(lang, "answers").get("said", {}).items()
-    }
-
-
 def _translate_word(word: str, terms: list[str]) -> str:
     """Return the term that a word of another language says, ``dunkler``; else the word as it is.
 
@@ -318,8 +309,8 @@ def _translate_word(word: str, terms: list[str]) -> str:
     pieces = [piece for piece in _LISTED.split(word) if piece]
     if fold_word(word) in known or len(pieces) > MOST_PIECES:
         return word
-    whole = _load_translations().get(fold_word(word), ())
-    said = [_load_translations().get(fold_word(piece), (piece,))[0] for piece in pieces]
+    whole = load_translations().get(fold_word(word), ())
+    said = [load_translations().get(fold_word(piece), (piece,))[0] for piece in pieces]
     found = (known.get(fold_word(one)) for one in (*whole, " ".join(said)))
     return next(filter(None, found), word)
 

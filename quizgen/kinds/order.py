@@ -11,7 +11,7 @@ import msgspec
 
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import fold_word
-from quizgen.grading.judging.wordings import find_wording, holds_wording
+from quizgen.grading.judging.wordings import find_wording_in, holds_wording
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, is_denied
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, apply_rewrite, normalise_typed
@@ -106,7 +106,8 @@ class OrderSpec(WordSpec, kw_only=True, frozen=True):
     """Order: ``steps``; ``before`` = [[a, b], ...]; ``distractors`` that must stay out.
 
     ``together`` are groups of steps between which no other one may stand. Without ``before`` the
-    listed order is the only one. Steps are typed by their labels, or by their ``words``.
+    listed order is the only one. Steps are typed by their labels, or by their ``words``, which ``said`` has
+    in each further language.
     """
 
     written_as: ClassVar[AnswerForm] = "option"
@@ -116,6 +117,7 @@ class OrderSpec(WordSpec, kw_only=True, frozen=True):
     together: list[list[str]] = msgspec.field(default_factory=list)
     distractors: list[str] = msgspec.field(default_factory=list)
     words: dict[str, str] = msgspec.field(default_factory=dict)
+    said: list[dict[str, str]] = msgspec.field(default_factory=list)
     traps: dict[str, list[str]] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
@@ -193,7 +195,11 @@ class OrderSpec(WordSpec, kw_only=True, frozen=True):
 
     def tells(self, _label: str, reason: str, /) -> bool:
         """Return whether a reason has the words of a step: it says where that belongs."""
-        return any(holds_wording(reason, words) for words in self.words.values())
+        return any(
+            holds_wording(reason, words)
+            for said in (self.words, *self.said)
+            for words in said.values()
+        )
 
     def show(self) -> str:
         """Return one right order."""
@@ -315,7 +321,7 @@ def _read_worded_steps(spec: OrderSpec, typed: str) -> list[str]:
     if is_denied(text) or _TIED.search(text):
         return []
     labels = [*spec.steps, *spec.distractors]
-    wordings = [spec.words.get(label, "") for label in labels]
+    wordings = [[said.get(label, "") for label in labels] for said in (spec.words, *spec.said)]
     for between in _BETWEEN_STEPS:
         pieces = [_STEP_NUMBER.sub("", piece.strip()) for piece in between.split(text)]
         pieces = [piece for piece in pieces if piece]
@@ -330,13 +336,13 @@ def _is_letter(label: str) -> bool:
     return len(label) == 1 and label.isalpha()
 
 
-def _find_worded_step(piece: str, labels: list[str], wordings: list[str]) -> int:
+def _find_worded_step(piece: str, labels: list[str], wordings: list[list[str]]) -> int:
     """Return the place (from 1) of a step by its words, or by its label before them; 0 if none."""
-    words = find_wording(piece, wordings, all_named=True)
+    words = find_wording_in(piece, wordings, all_named=True)
     named = _STEP_LABEL.fullmatch(piece)
     if named is None or named[1] not in labels:
         return words
-    meant = find_wording(named[2], wordings, all_named=True)
+    meant = find_wording_in(named[2], wordings, all_named=True)
     return labels.index(named[1]) + 1 if meant in {0, labels.index(named[1]) + 1} else 0
 
 
@@ -390,6 +396,9 @@ def ask(part: PartContext) -> AskedPart[OrderSpec]:
     marks = {name: mark for mark, name in options}
     _check_traps(part)
     traps = _list_wrong_orders(part.answer.get("traps", {}), steps, marks)
+    told, *said = (
+        dict(zip(marks.values(), texts, strict=True)) for texts in part.option_texts(marks)
+    )
     spec = make_spec(
         OrderSpec,
         part,
@@ -400,7 +409,8 @@ def ask(part: PartContext) -> AskedPart[OrderSpec]:
         before=[(marks[first], marks[second]) for first, second in part.answer.get("before", ())],
         together=[[marks[name] for name in group] for group in part.answer.get("together", ())],
         distractors=[marks[name] for name in extra],
-        words=dict(zip(marks.values(), part.option_texts(marks), strict=True)),
+        words=told,
+        **({"said": said} if said else {}),
     )
     return AskedPart(
         spec,

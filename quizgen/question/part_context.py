@@ -263,10 +263,15 @@ class VariantPart(PartContext):
             elif drawn and isinstance(after, PlainText) and after.text == ": ":
                 yield name, inlines_to_text(Interpolator(self.drawn, lang).sentence("words", drawn))
 
-    def option_texts(self, names: Iterable[str]) -> list[str]:
-        """Return the wording of options in the first language, as it would be typed."""
-        filler = Interpolator(self.drawn, self.drawn.template.languages[0])
-        return [inlines_as_typed(filler.sentence("options", name)) for name in names]
+    def option_texts(self, names: Iterable[str]) -> list[list[str]]:
+        """Return the wordings of options as they would be typed, in each language once."""
+        asked = list(names)
+        fillers = (Interpolator(self.drawn, lang) for lang in self.drawn.template.languages)
+        found = [
+            [inlines_as_typed(filler.sentence("options", name)) for name in asked]
+            for filler in fillers
+        ]
+        return [texts for place, texts in enumerate(found) if texts not in found[:place]]
 
     def condition_holds(self, condition: Condition) -> bool:
         """Return whether an authored condition holds in this variant."""
