@@ -207,7 +207,7 @@ def _list_names_of(wording: str) -> set[frozenset[str]]:
     return {frozenset(_split_words(part)) for part in (wording, *parts)} - {frozenset()}
 
 
-_APART = re.compile(r"(?<!\d)[,;](?= )|(?<=\d)[,;](?= [^\W\d])|[()]")
+_APART = re.compile(r"(?<!\d)[,;](?= )|(?<=\d)[,;](?= [^\W\d])|[()]|:(?= )")
 
 
 def _find_nearest(meant: frozenset[str], listed: list[frozenset[str]]) -> list[int]:
@@ -235,7 +235,11 @@ def _says_enough(
     It has all numbers and letters in it, and at least half of the words that no other one has; a
     word of its own only with two thirds of these, more of them only with all.
     """
-    exact = {word for word in wording if len(word) == 1 or not word.isalpha()}
+    exact = {
+        word
+        for word in wording
+        if len(word) == 1 or not (word.isalpha() or _BANGLA.match(word))
+    }
     own = _own_words(frozenset(wording), listed)
     said = own & meant
     if exact - meant or 2 * len(said) < len(own):

@@ -15,7 +15,7 @@ from typing import Literal, NamedTuple, TypeAlias
 
 from quizgen.core.errors import FormulaError
 from quizgen.grading.reading.bound_values import bind_values
-from quizgen.grading.reading.factor_words import is_shrinking
+from quizgen.grading.reading.factor_words import is_shrinking, read_factor
 from quizgen.grading.reading.joined_values import rejoin_values, repeat_value
 from quizgen.grading.reading.labels import NAME, AskedNames, find_name
 from quizgen.grading.reading.literals import LITERAL
@@ -140,6 +140,8 @@ _ROUNDING = re.compile(
     r"(?:decimal|digit|figure|place|stelle|nachkommastelle|ziffer)s?n?(?: places)?\)?$",
     re.IGNORECASE,
 )
+_PLUS_MINUS = re.compile(r"^(?:±|\+/?[-−]) ?(?=[\d.])")
+"""Before a deviation, which is given without a sign."""
 _BECOMING = re.compile(
     r"^([^\d]*(?:drop|fall|rise|wrap|goe|come|grow|change|sink|amount|shrink|increase|decrease|lead|"
     r"saturate|clip|clamp|round)(?:s|ed|ped|es)?(?: (?:around|round|down|up|back|over|it))?) to (?=[-+−≈~]?[.,]?\d)",
@@ -204,6 +206,9 @@ def list_plainer_texts(
 
 def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
     """Yield the one number among words; a quantity needs its unit if words follow."""
+    shown = _PLUS_MINUS.sub("", text)
+    if shown != text:
+        yield shown
     named_by, text = text, _BECOMING.sub(r"\1 ", _ROUNDING.sub("", _NAMED.sub("", text)))
     if text != named_by:
         yield text
@@ -326,23 +331,45 @@ def _write_words_as_numbers(text: str) -> str:
         spelt = replace_number_word(spelt)
     if not any(map(str.isdigit, spelt)):
         spelt = replace_only_number_word(spelt)
+    spelt = _write_share_of_unit(spelt)
     spelt = _OF_A.sub(" ", _ORDINAL.sub("", _PER_CENT.sub(" %", spelt)))
     return sign + add_mixed_units(add_large_words(_MODULUS.sub(" mod ", spelt)))
+
+
+def _write_share_of_unit(text: str) -> str:
+    """Return ``one thirtieth of a second`` as ``1/30 second``; the text itself if it is none."""
+    match = _SHARE_OF_UNIT.fullmatch(text)
+    share = read_factor(match[1]) if match else ""
+    return f"{share} {match[2]}" if match and "/" in share else text
+
+
+_SHARE_OF_UNIT = re.compile(
+    rf"([^\d,;.]+?) (?:(?:of|von|einer?|eines|of an?|of one) )+({_LETTERS}+)", re.IGNORECASE
+)
 
 
 def _write_items_as_numbers(text: str) -> str:
     """Return several values with those in words as digits, and without remarks in brackets."""
     text = _REMARK.sub(lambda m: m[0] if says_otherwise(m[0]) else "", text)
     pieces = _ITEMS.split(_MINUS.sub("-", text))
-    return "".join(
-        piece if any(map(str.isdigit, piece)) else replace_number_word(piece) for piece in pieces
-    )
+    return "".join(map(_write_item_as_number, pieces))
 
 
-_REMARKED = re.compile(r"([-+−]?\d[^()]*?) ?\(([^\W\d][^()\d]*)\)")
+def _write_item_as_number(piece: str) -> str:
+    """Return one of several values with its number in digits, ``minus four`` as ``-4``."""
+    if any(map(str.isdigit, piece)):
+        return piece
+    plain = _SIGNED.sub("", piece)
+    spelt = replace_number_word(plain)
+    return piece if spelt == plain else f"{'-' if plain != piece else ''}{spelt}"
+
+
+_REMARKED = re.compile(
+    r"([-+−]?\d[^()]*?) ?\(([^\W\d][^()\d]*|(?:from |aus |\d+ ?%? (?:of|von) )[^()]*)\)"
+)
 _REMARK = re.compile(r"(?<=\d) ?\([^\W\d][^()\d;,]*\)")
 _MINUS = re.compile(r"(?<![^\W\d_])(?:minus|মাইনাস) (?=[.,]?\d)", re.IGNORECASE)
-_ITEMS = re.compile(r"([;,\n] *| and | und )")
+_ITEMS = re.compile(r"([;,\n] *| (?:and|und|ও|এবং) )")
 
 
 def separate_labelled_values(text: str, names: AskedNames) -> Iterator[str]:
@@ -350,6 +377,7 @@ def separate_labelled_values(text: str, names: AskedNames) -> Iterator[str]:
 
     Every label must mean a name of its own, and every value must be one number.
     """
+    text = _write_each_letter(_write_each_equal(text), names)
     ahead = [(m[1], m.start(), m.end()) for m in _LABEL.finditer(text)]
     if ahead and not ahead[0][1]:
         ends = [*(start for _, start, _ in ahead[1:]), len(text)]
@@ -361,6 +389,27 @@ def separate_labelled_values(text: str, names: AskedNames) -> Iterator[str]:
     pieces = [piece.strip() for piece in _PARTED.split(text)]
     pairs = [pair for piece in pieces for pair in _read_labelled_piece(piece)]
     yield from _write_assigned(pairs, names, len(pieces))
+
+
+def _write_each_equal(text: str) -> str:
+    """Return ``a = b = 5`` as ``a = 5; b = 5``."""
+    return _ALL_EQUAL.sub(lambda m: f"{m[1]} = {m[3]}; {m[2]} = {m[3]}", text)
+
+
+def _write_each_letter(text: str, names: AskedNames) -> str:
+    """Return ``RGB = 12, 24, 6`` with a letter before each value, if each means a name."""
+    match = _RUN_TOGETHER.fullmatch(text.strip())
+    if match is None or len(match[1]) != len(names):
+        return text
+    meant = [find_name(letter.lower(), names) for letter in match[1]]
+    values = [value for value in re.split(r"[;/|]|,(?!\d)| +(?=[-\d.])", match[2].strip(" ()[]")) if value.strip()]
+    if not all(meant) or len({*meant}) < len(meant) or len(values) != len(meant):
+        return text
+    return "; ".join(f"{name} = {value.strip()}" for name, value in zip(meant, values, strict=True))
+
+
+_ALL_EQUAL = re.compile(rf"({NAME}) ?= ?({NAME}) ?= ?([-+−]?\d[\d .,/]*\d|[-+−]?\d)")
+_RUN_TOGETHER = re.compile(r"([A-Za-z]{2,4}) ?[=:]? ?([-(\[]?[\d.].*)")
 
 
 def _read_labelled_piece(piece: str) -> Iterator[tuple[str, str]]:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import pairwise
 
 import msgspec
 from flint import fmpq
@@ -20,6 +21,7 @@ from quizgen.grading.reading.normalise import normalise_typed
 from quizgen.grading.reading.numbers import (
     Readings,
     ReadNumber,
+    map_readings,
     number_from_tree,
     read_number,
     read_plain_number,
@@ -204,9 +206,36 @@ def _check_sides_agree(source: SourceText, sides: list[EqualitySide]) -> None:
     FormulaReadError
         ``two-readings``.
     """
-    for side in sides[1:]:
-        if not _is_equal_side(sides[0], side):
+    for before, side in pairwise(sides):
+        alike = _is_equal_side(sides[0], side) or _is_rounded_to(source, before, side)
+        if not alike and not _is_equal_side(*_without_percent(sides[0], side)):
             raise FormulaReadError("sides-differ", source.column(0), source.text)
+
+
+def _is_rounded_to(source: SourceText, before: EqualitySide, side: EqualitySide) -> bool:
+    """Return whether a whole number behind an arrow or ≈ is the one before it, rounded: ``2.8 → 3``."""
+    whole = side is not before and side.readings.main.form == "integer"
+    if not whole or not _ROUNDED.search(source.text):
+        return False
+    (a, _), (b, _) = _convert_to_base_units(before), _convert_to_base_units(side)
+    unit = side.quantity.unit.factor if side.quantity.unit else fmpq(1)
+    return bool(2 * abs(a - b) <= unit)
+
+
+_ROUNDED = re.compile(r"(?:→|->|≈|=>|⇒) ?[-−]?\d+(?![.,]?\d)[^\d=]*$")
+
+
+def _without_percent(first: EqualitySide, second: EqualitySide) -> tuple[EqualitySide, EqualitySide]:
+    """Return two sides of which only one has a percent sign as plain numbers: ``100 - 68 = 32 %``."""
+    if first.readings.main.percent == second.readings.main.percent:
+        return first, second
+    one, other = (
+        msgspec.structs.replace(
+            side, readings=map_readings(side.readings, lambda n: msgspec.structs.replace(n, percent=False))
+        )
+        for side in (first, second)
+    )
+    return one, other
 
 
 def _is_equal_side(first: EqualitySide, second: EqualitySide) -> bool:

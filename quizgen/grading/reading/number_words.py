@@ -71,6 +71,7 @@ def replace_number_word(text: str) -> str:
 _SPOKEN = re.compile(r" ?-?((?:[^\W\d_]|[\u0980-\u09ff])+)")
 _AND = frozenset({"and", "und", "ও"})
 _A = frozenset({"a", "one", "ein", "eine", "এক"})
+_AND_A_HALF = re.compile(r" and a half(?!\w)", re.IGNORECASE)
 _POINT = re.compile(r"(?:^| )(?:point|komma|দশমিক) (?=[^\W\d])", re.IGNORECASE)
 
 
@@ -80,6 +81,9 @@ def _read_spoken_number(text: str) -> tuple[str, int] | None:
     if value is None and not (_POINT.match(text) and " " not in text[:1]):
         return None
     digits, end = _read_spoken_decimals(text, end)
+    half = None if digits or value is None else _AND_A_HALF.match(text, end)
+    if half:
+        digits, end = ".5", half.end()
     return (f"{value or 0}{digits}", end) if digits or value is not None else None
 
 
