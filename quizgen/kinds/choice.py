@@ -97,7 +97,7 @@ _DENIED = re.compile(
 """A word that is denied: what is not true is false, and the other way round."""
 _TRUTH_FIRST = re.compile(
     r"(?P<first>[^\s,;:.(]+)(?!(?<=\d)[.,]\d)"
-    r"(?:[,;:.] ?| (?=\()| ?[-–—] | (?=it |they |this |that |weil |because ))(?P<rest>.+)"
+    r"(?:[,;:.] ?| (?=\()| ?[-–—] | (?=it |it's |that's |they |this |that |weil |because ))(?P<rest>.+)"
 )
 """*Yes* or *false* with a reason behind it; ``0.5`` is neither."""
 _SHORT_DENIAL = re.compile(
@@ -134,6 +134,11 @@ _SET_APART = (
 """One option set against another: ``B, not E``; ``not E but B``."""
 _BRACKETED = re.compile(r"(?P<mark>[A-Za-zক-ঞ]) ?\((?P<words>[^()]{2,})\)")
 _ALL = frozenset({"all", "all of them", "all of these", "alle", "সব", "সবগুলো", "সবগুলি"})
+_ALL_BUT = re.compile(
+    r"(?:all|every(?:thing|one)?|alle|alles)(?: of them)?,? (?:but|except|without|außer|ohne)(?: for)? (?P<out>.+)"
+    r"|(?P<before>.+?) (?:বাদে|ছাড়া|ছাড়া) (?:সব|বাকি সব)(?:গুলো|গুলি)?",
+    re.IGNORECASE,
+)
 _WORDED = re.compile(r"[,;\n]| (?:and|und|&|ও|এবং) ")
 """What stands between several options that are named by their words."""
 _PLACES = ["first", "second", "third", "fourth", "fifth", "sixth"]
@@ -261,6 +266,10 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
         return [whole]
     if spec.kind == "multi" and typed.casefold().strip(_AROUND) in _ALL:
         return list(range(1, len(spec.choices()) + 1))
+    but = _ALL_BUT.fullmatch(typed.strip(_AROUND)) if spec.kind == "multi" else None
+    if but:
+        left_out = _read_positions(spec, but["out"] or but["before"])
+        return [one for one in range(1, len(spec.choices()) + 1) if one not in left_out]
     if {*map(str.casefold, spec.choices())} == {"yes", "no"} and (truth := read_truth(typed)):
         return [spec.choices().index(("yes", "no")[truth - 1]) + 1]
     read = (
@@ -483,7 +492,11 @@ def _find_truth_word(text: str) -> int:
     first, comma, second = word.partition(", ")
     if comma:
         return _find_truth_word(first) if _find_truth_word(first) == _find_truth_word(second) else 0
-    return 1 if word in _TRUE else 2 if word in _FALSE else 0
+    if word in _TRUE | _FALSE:
+        return 1 if word in _TRUE else 2
+    first, blank, second = word.partition(" ")
+    told = _find_truth_word(first) if blank else 0
+    return told if told and told == _find_truth_word(second) else 0
 
 
 def _parse_labelled_options(spec: ChoiceSpec, typed: str) -> list[int]:

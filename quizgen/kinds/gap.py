@@ -375,7 +375,7 @@ def _is_in_company(word: str, gap: Sequence[str], others: Sequence[str]) -> bool
     several may stand anywhere: ``all rows at the same time``.
     """
     words = [fold_word(piece) for piece in re.split(r"[\s,;]+", word) if fold_word(piece)]
-    if says_otherwise(word) or len(words) < len(("term", "noun")) or not word[:1].isalpha():
+    if len(words) < len(("term", "noun")) or not word[:1].isalpha():
         return False
     wrong = {fold_word(term) for term in others}
     for term in gap:
@@ -386,7 +386,8 @@ def _is_in_company(word: str, gap: Sequence[str], others: Sequence[str]) -> bool
         rest = [*words[: places[0]], *words[places[0] + len(wanted) :]] if places else []
         alone = len(wanted) == 1 and (places != [0] or len(rest) > 1)
         known = wrong & {*rest, "".join(rest)}
-        if rest and not alone and not known and len(rest) <= MOST_COMPANY:
+        few = rest and not alone and not known and len(rest) <= MOST_COMPANY
+        if few and not says_otherwise(" ".join(rest)):
             return True
     return False
 

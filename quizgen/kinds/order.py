@@ -36,9 +36,14 @@ MOST_STEPS = 40
 _LEFT_OUT = re.compile(
     r"(?P<kept>.+?)[,;]? ?\(?"
     r"(?:(?:without|leave out|leaving out|leaves out|ohne|বাদ) (?P<out>[^()]+)"
-    r"|(?P<wrong>[A-Za-z](?:(?:,| and| und)? [A-Za-z])*) (?:is|are|ist|sind)"
-    r" (?:wrong|false|out|falsch))\)?",
+    r"|(?:(?:and |but |und )?(?:not|no|nicht)|except|außer) (?P<denied>[A-Za-z](?:(?:,| and| or| und)? [A-Za-z])*)"
+    r"|(?P<wrong>[A-Za-z](?:(?:,| and| und)? [A-Za-z])*) (?:(?:is |are |ist |sind |was )?"
+    r"(?:wrong|false|out|falsch|left out|not|nicht|missing|বাদ)|(?:does|do)(?: not|n't) (?:belong|fit)"
+    r"|gehör(?:t|en) nicht dazu|entfällt|fällt weg)(?:,? (?:because|since|weil) [^()]+)?)[).]*",
     re.IGNORECASE,
+)
+_LEFT_OUT_FIRST = re.compile(
+    r"(?:leave out|leaving out|without|ohne|not|skip) (?P<out>[A-Za-z])\s*[:,;–-]\s*(?P<kept>.+)", re.IGNORECASE
 )
 """Steps, and others that are said not to belong to them."""
 _BETWEEN_STEPS = tuple(
@@ -62,6 +67,11 @@ _LINE = re.compile(
     r"(?<![^\s,;(])\(?(\d{1,2})(?: ?[.):]+ ?| ?[=-] ?(?=[^\W\d])| (?=[^\W\d]))"
     r"([^\s,;.:()\d]+|\d{1,2}(?![.):]))(?![^\s,;.])"
 )
+_PLACED = (
+    (re.compile(r"(?<!\w)(\d{1,2})[=:-]?([A-Z])(?!\w)"), 1, 2),
+    (re.compile(r"(?<!\w)([A-Z]) ?[=:-]? ?(\d{1,2})(?!\w)"), 2, 1),
+)
+"""Letters with their places, ``1D 2F`` and ``D=1, F=2``."""
 _TIED = re.compile(
     r"[^\W\d_] ?= ?[^\W\d_]|[^/]*\w ?/ ?\w ?[\s,;>→-]+\w|^[^/]*\w[\s,;>→-]+\w ?/ ?\w"
 )
@@ -305,7 +315,7 @@ def _read_worded_steps(spec: OrderSpec, typed: str) -> list[str]:
     What is said to be left out is, if nothing of it stands among the rest.
     """
     text = apply_rewrite("digits", typed.strip())
-    kept = _LEFT_OUT.fullmatch(text)
+    kept = _LEFT_OUT_FIRST.fullmatch(text) or _LEFT_OUT.fullmatch(text)
     if kept is not None:
         label = (
             re.compile(rf"\b[{''.join(spec.steps)}]\b")
@@ -316,7 +326,7 @@ def _read_worded_steps(spec: OrderSpec, typed: str) -> list[str]:
             chosen = _read_labels(spec, kept["kept"])
         except FormulaReadError:
             return []
-        out = kept["out"] or kept["wrong"]
+        out = next(one for name, one in kept.groupdict().items() if one and name != "kept")
         return [] if label is None or label.search(out) else chosen
     if is_denied(text) or _TIED.search(text):
         return []
@@ -351,6 +361,10 @@ def _parse_numbered_lines(text: str) -> list[str]:
 
     None are returned unless the lines are numbered from 1 without a gap.
     """
+    for shape, first, second in _PLACED:
+        found = {one[first]: one[second] for one in shape.finditer(text)}
+        if not shape.sub("", text).strip(" ,;.") and {*map(int, found)} == {*range(1, len(found) + 1)}:
+            return [found[place] for place in sorted(found, key=int)] if len(found) > 1 else []
     pairs = dict(_LINE.findall(text))
     whole = not _LINE.sub("", text).strip(" ,;.")
     if not whole or len(pairs) < 2 or {*map(int, pairs)} != {*range(1, len(pairs) + 1)}:

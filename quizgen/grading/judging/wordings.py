@@ -281,7 +281,7 @@ def _stem(word: str) -> str:
     return short if len(short) >= LEAST_STEM else word
 
 
-_VERB_ENDING = re.compile(r"(?:ing|ed|e)$")
+_VERB_ENDING = re.compile(r"(?:ing|ed|ion|e)$")
 LEAST_STEM = 4
 """Letters that are left of a word whose ending does not matter."""
 

@@ -324,14 +324,13 @@ def _write_words_as_numbers(text: str) -> str:
     text = _UNDERSCORED.sub("", text)
     typed_array = _TYPED_NUMBER.fullmatch(text)
     text = typed_array[1] if typed_array else text
-    signed = _SIGNED.sub("", text)
-    sign = "-" if signed != text and not signed.startswith(("-", "−", "–")) else ""
+    signed = _SIGNED.sub("", _write_share_of_unit(text))
+    sign = "-" if _SIGNED.match(text) and not signed.startswith(("-", "−", "–")) else ""
     spelt = _SPOKEN_POINT.sub(".", _THOUSANDS.sub(" thousand", signed if sign else text))
     if not any(map(str.isdigit, spelt)):
         spelt = replace_number_word(spelt)
     if not any(map(str.isdigit, spelt)):
         spelt = replace_only_number_word(spelt)
-    spelt = _write_share_of_unit(spelt)
     spelt = _OF_A.sub(" ", _ORDINAL.sub("", _PER_CENT.sub(" %", spelt)))
     return sign + add_mixed_units(add_large_words(_MODULUS.sub(" mod ", spelt)))
 
@@ -377,7 +376,10 @@ def separate_labelled_values(text: str, names: AskedNames) -> Iterator[str]:
 
     Every label must mean a name of its own, and every value must be one number.
     """
-    text = _write_each_letter(_write_each_equal(text), names)
+    written = _write_each_letter(_write_each_equal(text), names)
+    if written != text:
+        yield written
+    text = written
     ahead = [(m[1], m.start(), m.end()) for m in _LABEL.finditer(text)]
     if ahead and not ahead[0][1]:
         ends = [*(start for _, start, _ in ahead[1:]), len(text)]

@@ -36,6 +36,8 @@ from quizgen.maths.units import format_unit
 from quizgen.maths.values import Value
 
 _EQUAL = re.compile(r" ?(?:=>|⇒|->|→|:=|==?|[≈≃≅≐∼~]) ?")
+_REST_OF_ALL = re.compile(r"(?<![\w.,])1 ?[-−–] ?(?=\d[\d.,]* ?%)")
+"""All but a percentage, ``1 - 68 %``."""
 _NAMED = re.compile(rf"{WORDS}: ?(?=\S)")
 _BRACKETS = re.compile(r"[\[{(]([^\[\]{}()]+)[\])}] ?(?=[^\W\d]|[%°])")
 _LETTER = re.compile(r"[^\W\d_]")
@@ -101,6 +103,7 @@ def read_sides(source: SourceText, decimal: str) -> list[EqualitySide]:
     plain = read_plain_side(source.text, decimal)
     if plain is not None:
         return [plain]
+    source = source.substitute(_REST_OF_ALL, lambda _m: "100 - ")
     try:
         return [_read_side(source, decimal)]
     except FormulaReadError as error:
@@ -227,15 +230,24 @@ _ROUNDED = re.compile(r"(?:→|->|≈|=>|⇒) ?[-−]?\d+(?![.,]?\d)[^\d=]*$")
 
 def _without_percent(first: EqualitySide, second: EqualitySide) -> tuple[EqualitySide, EqualitySide]:
     """Return two sides of which only one has a percent sign as plain numbers: ``100 - 68 = 32 %``."""
-    if first.readings.main.percent == second.readings.main.percent:
+    if _is_percent(first) == _is_percent(second):
         return first, second
-    one, other = (
-        msgspec.structs.replace(
-            side, readings=map_readings(side.readings, lambda n: msgspec.structs.replace(n, percent=False))
-        )
-        for side in (first, second)
-    )
+    one, other = map(_drop_percent, (first, second))
     return one, other
+
+
+def _is_percent(side: EqualitySide) -> bool:
+    """Return whether a side has a percent sign."""
+    unit = side.quantity.unit
+    return side.readings.main.percent or (unit is not None and unit.text == "%")
+
+
+def _drop_percent(side: EqualitySide) -> EqualitySide:
+    """Return a side without its percent sign; any other side as it is."""
+    if not _is_percent(side):
+        return side
+    plain = map_readings(side.readings, lambda n: msgspec.structs.replace(n, percent=False))
+    return EqualitySide(TypedQuantity(side.quantity.number, None), plain)
 
 
 def _is_equal_side(first: EqualitySide, second: EqualitySide) -> bool:
