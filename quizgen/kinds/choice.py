@@ -272,6 +272,8 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
         return [one for one in range(1, len(spec.choices()) + 1) if one not in left_out]
     if {*map(str.casefold, spec.choices())} == {"yes", "no"} and (truth := read_truth(typed)):
         return [spec.choices().index(("yes", "no")[truth - 1]) + 1]
+    if said := _find_option_by_truth(spec, typed):
+        return [said]
     read = (
         _parse_labelled_options(spec, typed)
         or _read_set_apart(spec, typed)
@@ -285,6 +287,23 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
             raise
         return meant
     return (spec.kind == "choice" and len(read) > 1 and _find_worded_options(spec, typed)) or read
+
+
+def _find_option_by_truth(spec: ChoiceSpec, typed: str) -> int:
+    """Return the place of the only option that begins with *Yes* or *No*, as the answer does.
+
+    0 if several do, if the answer says neither, or if the words behind it mean another option.
+    """
+    leading = [read_truth(re.split(r"[,;:. ]", option, maxsplit=1)[0]) for option in spec.choices()]
+    if {*leading} - {0} != {1, 2}:
+        return 0
+    first, _, rest = typed.strip(_AROUND).partition(" ")
+    truth = read_truth(typed) or _find_truth_word(first.strip(",;:."))
+    if not truth or leading.count(truth) != 1 or _ALTERNATIVE.search(typed):
+        return 0
+    place = leading.index(truth) + 1
+    denied = says_otherwise(rest) and not read_truth(typed)
+    return place if _find_wording(spec, typed) in {0, place} and not denied else 0
 
 
 def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:

@@ -387,7 +387,7 @@ def _is_in_company(word: str, gap: Sequence[str], others: Sequence[str]) -> bool
         alone = len(wanted) == 1 and (places != [0] or len(rest) > 1)
         known = wrong & {*rest, "".join(rest)}
         few = rest and not alone and not known and len(rest) <= MOST_COMPANY
-        if few and not says_otherwise(" ".join(rest)):
+        if few and not says_otherwise(" ".join(one for one in rest if one != "power")):
             return True
     return False
 

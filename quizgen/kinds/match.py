@@ -35,6 +35,13 @@ _SEPARATORS = re.compile(r"[\s,;.|&\[\]{}।॥]+")
 _ARROWS = re.compile(r"\s*(?:->|=>|<->|--|[-:=>()→↔⇒⇔⟶⟷↦])+\s*|(?<=\w)[/_](?=\w)")
 _COMMAS = re.compile(r"[;,\n](?![^(]*\))\s*")
 """What stands between sides in order, outside brackets."""
+_LEFT_OVER = re.compile(
+    r"(?<=\d)[ ,;.]*\(?(?:\d+(?:(?:,| and| und) \d+)*) "
+    r"(?:(?:is|are|ist|sind|stays|stay|bleibt|bleiben) (?:left over|left|over|unused|not used|spare|extra|übrig|nothing|none)"
+    r"|unused|left over|übrig|fits nothing|fits nowhere)\)?\.?$",
+    re.IGNORECASE,
+)
+"""Right sides that are said to belong to nothing, behind the pairs."""
 _GROUPS = (
     r"[;\n]",
     r"[,;\n](?![^(]*\))\s*(?=[A-Z]\b)",
@@ -166,7 +173,8 @@ def _read_pairs(spec: MatchSpec, typed: str) -> dict[str, str]:
     FormulaReadError
         If no pairs can be read, or a label is used twice.
     """
-    source = normalise_typed(re.sub(r"[\r\n]+", " ", typed.strip()), keep_x=True, longest=1000)
+    typed = _LEFT_OVER.sub("", typed.strip())
+    source = normalise_typed(re.sub(r"[\r\n]+", " ", typed), keep_x=True, longest=1000)
     text = PICTURES.sub(" ", source.text)
     text = LONE_LETTER.sub(lambda letter: letter[0].translate(BANGLA_LETTERS), text)
     left = {fold_word(label): label for label in spec.pairs}

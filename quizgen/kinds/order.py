@@ -33,17 +33,19 @@ from quizgen.locale import translate
 from quizgen.maths.notation import FormulaReadError
 
 MOST_STEPS = 40
+_LETTERED = r"[A-Za-z](?:(?:,| and| or| und)? [A-Za-z])*"
 _LEFT_OUT = re.compile(
-    r"(?P<kept>.+?)[,;]? ?\(?"
+    r"(?P<kept>.+)(?:[,;:.] ?| ?\(| (?=without |leav|ohne |বাদ |not |but |and not |no |nicht |except ))"
     r"(?:(?:without|leave out|leaving out|leaves out|ohne|বাদ) (?P<out>[^()]+)"
-    r"|(?:(?:and |but |und )?(?:not|no|nicht)|except|außer) (?P<denied>[A-Za-z](?:(?:,| and| or| und)? [A-Za-z])*)"
-    r"|(?P<wrong>[A-Za-z](?:(?:,| and| und)? [A-Za-z])*) (?:(?:is |are |ist |sind |was )?"
+    rf"|(?:(?:and |but |und )?(?:not|no|nicht)|except|außer) (?P<denied>{_LETTERED})"
+    rf"|(?P<wrong>{_LETTERED}) (?:(?:is |are |ist |sind |was )?"
     r"(?:wrong|false|out|falsch|left out|not|nicht|missing|বাদ)|(?:does|do)(?: not|n't) (?:belong|fit)"
     r"|gehör(?:t|en) nicht dazu|entfällt|fällt weg)(?:,? (?:because|since|weil) [^()]+)?)[).]*",
     re.IGNORECASE,
 )
 _LEFT_OUT_FIRST = re.compile(
-    r"(?:leave out|leaving out|without|ohne|not|skip) (?P<out>[A-Za-z])\s*[:,;–-]\s*(?P<kept>.+)", re.IGNORECASE
+    r"(?:leave out|leaving out|without|ohne|not|skip) (?P<out>[A-Za-z])\s*[:,;–-]\s*(?P<kept>.+)",
+    re.IGNORECASE,
 )
 """Steps, and others that are said not to belong to them."""
 _BETWEEN_STEPS = tuple(

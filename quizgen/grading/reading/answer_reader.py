@@ -324,8 +324,9 @@ def _write_words_as_numbers(text: str) -> str:
     text = _UNDERSCORED.sub("", text)
     typed_array = _TYPED_NUMBER.fullmatch(text)
     text = typed_array[1] if typed_array else text
-    signed = _SIGNED.sub("", _write_share_of_unit(text))
-    sign = "-" if _SIGNED.match(text) and not signed.startswith(("-", "−", "–")) else ""
+    text = _write_share_of_unit(text)
+    signed = _SIGNED.sub("", text)
+    sign = "-" if signed != text and not signed.startswith(("-", "−", "–")) else ""
     spelt = _SPOKEN_POINT.sub(".", _THOUSANDS.sub(" thousand", signed if sign else text))
     if not any(map(str.isdigit, spelt)):
         spelt = replace_number_word(spelt)
