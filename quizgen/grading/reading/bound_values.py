@@ -84,7 +84,7 @@ def bind_values(text: str, names: AskedNames, scan: NumberScan) -> Iterator[str]
 def _mark_ordinals(text: str) -> str:
     """Return the text with the number of each place marked: it is no value then."""
     text = _NUMBERED.sub(rf"\1 {_MARK}\2", text)
-    text = _NUMBERED_BEHIND.sub(rf"\1 {_MARK}\2", text)
+    text = _NUMBERED_BEHIND.sub(rf"for \1 {_MARK}\2", text)
     return _COUNTED_OFF.sub(rf"{_MARK}\1 ", text)
 
 
