@@ -151,7 +151,8 @@ class _Variable(msgspec.Struct, frozen=True):
 def describe_list_fault(error: Exception) -> str:
     """Return what is wrong in a formula; Python's word for a sum with a list names only types."""
     if isinstance(error, KeyError):
-        return f"{error.args[0]} is a text, where a number is needed"
+        name = error.args[0]
+        return f"{name} is a text, where a number is needed (draw a number, and its words by it)"
     return "a list stands where a number is needed" if isinstance(error, TypeError) else str(error)
 
 
