@@ -26,6 +26,7 @@ import msgspec
 from quizgen.core.errors import QuizgenError
 from quizgen.core.trusted_files import find_trusted_file
 from quizgen.grading.reading.formulas import read_formula
+from quizgen.grading.reading.matrices import split_matrix
 from quizgen.maths.notation import FormulaReadError
 
 if TYPE_CHECKING:
@@ -179,6 +180,25 @@ def _read_outcome(found: Any) -> CheckOutcome:
         return CheckOutcome(Fraction(exactly), says)
     what = f"it gives {found!r}; a share from 0 to 1 or None is expected, alone or with a name"
     return CheckOutcome(fault=what[:500])
+
+
+def read_matrix_as_sympy(typed: str, symbols: str | Iterable[str] = "") -> Any:
+    """Return a typed matrix, ``[1, 2; 3, 4]`` or a row on each line, as a SymPy matrix.
+
+    Parameters
+    ----------
+    typed : str
+    symbols : str or iterable of str
+        The names that its entries may have.
+
+    Raises
+    ------
+    FormulaReadError
+        If it cannot be read; a check that lets it pass has the answer asked back.
+    """
+    from sympy import Matrix
+
+    return Matrix([[read_as_sympy(one, symbols) for one in row] for row in split_matrix(typed)])
 
 
 def read_as_sympy(typed: str, symbols: str | Iterable[str], *, log: str = "") -> Any:
