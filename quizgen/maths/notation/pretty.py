@@ -166,7 +166,7 @@ _FORMULA = re.compile(
     r"|(?P<pi>(?<![^\W_])pi(?![\w']))"
     r"|(?P<name>[^\W\d_][^\W_]*['′]*(?:_[^\W_]+['′]*)*)"
     r"|\^(?:(?P<exponent>\d+)(?![\d.])|\{(?P<literal>-?\d+)/1\}|\((?P<inside>-\d+)\))"
-    r"|\{(?P<constant>[^{}]*)\}"
+    r"|\{(?P<constant>-?\d[\d./]*)\}"
     rf"|(?P<number>(?<![\d.{GAP}]){_DIGITS}(?:[eE][-+]?\d+)?)"
     r"|(?P<sign><=|>=|!=|\*|-)"
 )
