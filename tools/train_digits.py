@@ -27,7 +27,7 @@ from quizgen.classes.scanning.pictures import SHARP
 
 FIELD = (55, 88)
 """Pixels of the field in which one sign stands."""
-TIMES, DRAWN, OTHER = 8, 2500, 9000
+TIMES, DRAWN, OTHER = 8, 3000, 9000
 """Pictures of each written digit, of each drawn sign, and of what is no sign."""
 LAYERS = (128,)
 STROKES = {
@@ -55,7 +55,8 @@ STROKES = {
     "9": [[[(8, 2), (4, 0), (1, 3), (4, 5), (8, 2), (8, 10)]],
           [[(8, 3), (4, 5), (1, 2), (5, 0), (8, 3), (6, 9), (2, 10)]]],
     "-": [[[(0, 5), (8, 5)]], [[(0, 5), (5, 5)]]],
-    ".": [[[(4, 9), (5, 10)]], [[(5, 9), (3, 12)]], [[(4, 9), (4, 9.3)]]],
+    ".": [[[(4, 9), (5, 10)]], [[(5, 9), (3, 12)]], [[(4, 9), (4, 9.3)]], [[(3, 9.7), (5, 10)]],
+          [[(4, 9), (5, 9), (5, 10), (4, 10), (4, 9)]], [[(3, 10), (5, 9.5)]]],
     "/": [[[(8, 0), (0, 10)]], [[(7, -1), (1, 11)]]],
     "?": [
         [[(0, 4), (0, 10), (1, 6), (5, 4), (8, 6), (8, 10)]],
@@ -213,7 +214,7 @@ def train() -> None:
     written, said, *_ = load_written()
     rows, targets = make_rows(written, said, (TIMES, DRAWN, OTHER), seed=7)
     print(len(rows), "signs,", np.bincount(targets, minlength=len(SIGNS)))
-    net = MLPClassifier(LAYERS, alpha=1e-3, batch_size=256, max_iter=14, random_state=1,
+    net = MLPClassifier(LAYERS, alpha=1e-3, batch_size=256, max_iter=18, random_state=1,
                         learning_rate_init=1e-3, verbose=True)  # fmt: skip
     net.fit(rows, targets)
     stored = {}

@@ -30,17 +30,19 @@ SIDE, INNER, CELL = 24, 20, 4
 DIRECTIONS = 8
 SURE = 0.9
 """Least probability that each sign of a proposal has."""
-FRAME = 0.45
+FRAME = 0.25
 """Millimetres of a field's edge that its frame takes."""
-FAINT, HALF = 0.14, 0.4
-"""Darkness below which nothing is ink, and the share of that of the darkest ink which is."""
-SPECK, WIDEST, GAP = 5, 5.5, 6.5
-"""Pixels of ink that are dirt; millimetres of a sign, and of the paper between two, at most."""
+FAINT, HALF, LIGHT = 0.14, 0.4, 0.2
+"""Darkness below which nothing is ink; the share of that of the darkest ink which is, and which is
+where none is darker."""
+SPECK, SMALLEST, WIDEST, GAP = 5, 8, 5.5, 4.0
+"""Pixels of ink that are dirt, of light ink that are none; millimetres of a sign, and of the paper
+between two, at most."""
 OVERLAP = 0.45
 """Share of its width that a piece of ink has below another of the same sign."""
 PRINT = 235
 """Grey of a blank page below which something is printed."""
-NEAR, BESIDE, DARKER = 2, 6, 1.4
+NEAR, BESIDE, DARKER = 3, 7, 1.4
 """Pixels by which print may lie beside its place, beyond which paper is looked at, and how much
 darker than print something written on it is."""
 _NUMBER = re.compile(r"-?\d{1,7}(\.\d{1,6}|/\d{1,4})?")
@@ -104,6 +106,11 @@ def part_signs(ink: NDArray[np.float32]) -> list[Sign]:
     if peak < FAINT:
         return []
     dark = (ink > max(FAINT * 0.8, HALF * peak)).astype(np.uint8)
+    faint = (ink > max(FAINT * 0.8, LIGHT * peak)).astype(np.uint8)
+    _, labels, stats, _ = cv2.connectedComponentsWithStats(faint, connectivity=8)
+    large = stats[:, cv2.CC_STAT_AREA] >= SMALLEST
+    large[np.unique(labels[dark > 0])] = False
+    dark |= (large[labels] & (labels > 0)).astype(np.uint8)  # a light mark, which must not be lost
     _, labels, stats, _ = cv2.connectedComponentsWithStats(dark, connectivity=8)
     pieces = sorted(
         (int(x), int(x + w), n) for n, (x, _, w, _, area) in enumerate(stats) if n and area >= SPECK

@@ -68,7 +68,7 @@ class _ReportSheet(msgspec.Struct):
 class _Report(msgspec.Struct):
     """What ``report.json`` says."""
 
-    students: dict[str, _ReportSheet]
+    students: dict[str, _ReportSheet] = {}
 
 
 _REPORT = json_decoder(_Report).decode
