@@ -174,6 +174,7 @@ class Pen:
         """Write a sign in each cell of a field, about in its middle."""
         r, cell = self.random, field["w"] / cells
         high, base = r.uniform(3.0, 4.5), field["y"] + field["h"] - r.uniform(0.7, 1.4)
+        high = min(high, field["h"] - 2.2)
         wide, drift = min(high * 0.55, cell * 0.72), r.gauss(0, 0.25)
         for place, sign in enumerate(text):
             x = field["x"] + place * cell + (cell - wide) / 2 + drift + r.gauss(0, 0.2)

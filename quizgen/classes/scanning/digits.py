@@ -28,7 +28,7 @@ WEIGHTS = Path(__file__).with_name("digits.npz")
 SIDE, INNER, CELL = 24, 20, 4
 """Pixels of a described sign, of its longer side, and of a square whose edges are counted."""
 DIRECTIONS = 8
-SURE = 0.9
+SURE = 0.8
 """Least probability that each sign of a proposal has."""
 FRAME = 0.25
 """Millimetres of a field's edge that its frame takes."""
