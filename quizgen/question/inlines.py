@@ -78,10 +78,13 @@ class PlacedField(msgspec.Struct, frozen=True):
         Of the part; empty where there is only one.
     options : tuple of (str, inlines)
         What there is to choose from, each after its mark; none where something is typed.
+    elsewhere : bool
+        Whether the field itself stands in the same words of another language: a part has one.
     """
 
     label: str
     options: tuple[tuple[str, tuple[Inline, ...]], ...] = ()
+    elsewhere: bool = False
 
     @property
     def text(self) -> str:

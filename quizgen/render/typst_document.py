@@ -24,7 +24,7 @@ from quizgen.render import fonts
 _KNOWN = frozenset(map(chr, (*range(0x20, 0x7F), *range(0xA1, 0x180), *range(0x985, 0x9E4))))
 """Latin and Bangla, in which most names are written."""
 _LITERAL: Final = json.JSONEncoder(ensure_ascii=False)
-_GAP = re.compile("_{3,}")
+GAP = re.compile("_{3,}")
 _TIED = re.compile(
     r"\d[ \u00a0][A-Za-zµ°%]{1,4}\b(?:/[A-Za-zµ]+)?"
     r"|\((?:[^()\s]{1,7}[;,] ){1,3}[^()\s]{1,7}\)"
@@ -88,7 +88,7 @@ def _is_short_line(part: markdown.Inline) -> bool:
 @inlines_to_typst.register
 def _format_words(part: markdown.PlainText, _lang: str) -> str:
     """Return words as Typst markup, with a blank of the width of a word where they have a gap."""
-    said = [f"#{typst_literal(text)};" if text else "" for text in _GAP.split(part.text)]
+    said = [f"#{typst_literal(text)};" if text else "" for text in GAP.split(part.text)]
     return "#gap;".join(said)
 
 
@@ -126,18 +126,27 @@ def _format_picture(part: PlacedPicture, _lang: str) -> str:
 
 @inlines_to_typst.register
 def _format_field(part: PlacedField, lang: str) -> str:
-    """Return the field of a part as Typst markup: a ruled blank, or a box before each option."""
+    """Return the field of a part as Typst markup: a ruled blank, or a box before each option.
+
+    Where the field stands elsewhere, there are dots or the options alone.
+    """
     label = f'#text(0.85em, fill: rgb("#4b5563"), {typst_literal(f"({part.label})")});#h(0.25em);'
     label = label if part.label else ""
     if not part.options:
-        return f"#box[{label}#blank({typst_literal(part.label)});];"
+        blank = "…" if part.elsewhere else f"#blank({typst_literal(part.label)});"
+        return f"#box[{label}{blank}];"
     boxed = [
-        f"#box[#option({typst_literal(part.label)}, {typst_literal(mark)});#h(0.3em);"
+        f"#box[{'' if part.elsewhere else _format_box(part.label, mark)}"
         f"{_format_mark(mark)}{inlines_to_typst(said, lang)}];"
         for mark, said in part.options
     ]
     first, *rest = boxed
     return " #h(0.4em); ".join([f"#box[{label}{first}];", *rest])
+
+
+def _format_box(label: str, mark: str) -> str:
+    """Return the box of an option in Typst."""
+    return f"#option({typst_literal(label)}, {typst_literal(mark)});#h(0.3em);"
 
 
 def _format_mark(mark: str) -> str:
