@@ -215,5 +215,5 @@ def test_of_a_drawn_mistake_only_the_sentence_is_told(bank):
     said = "The image stands upright."
     assert f"<li>{said}" in html.render_paper_html(paper, "solutions").decode()
     typst_text = pdf.typst_sources(paper, "solutions")["main.typ"].decode()
-    assert f'#slip("", [], [#passage("#\\"{said}' in typst_text
+    assert f'#slip("", false, [], [#passage("#\\"{said}' in typst_text
     assert f"! upright: {said}" in format_question(paper.items[0])
