@@ -48,6 +48,7 @@ _TRUE = frozenset(
         "হাঁ",
         "satya",
     }
+    | {"thik", "sothik", "sotti", "haan", "hya"}
     | {"সত্য", "হ্যাঁ", "হ্যা", "সত্যি", "ঠিক", "সঠিক", "স", "1", "✓", "✔"}
 )
 _FALSE = frozenset(
@@ -68,6 +69,7 @@ _FALSE = frozenset(
         "inkorrekt",
         "❌",
     }
+    | {"bhul", "mithya", "na"}
     | {"মিথ্যা", "মিথ্যে", "অসত্য", "ভূল", "বেঠিক", "না", "ভুল", "ম", "0", "2", "✗", "✘"}
 )
 _FEWEST_VALUES = 2

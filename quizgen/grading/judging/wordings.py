@@ -303,13 +303,17 @@ _BANGLA_ENDING = re.compile(
 """What a case, a number or a stress adds to a Bangla word."""
 
 
+_SAME = {"bigger": "larger", "biggest": "largest", "big": "large", "gray": "grey", "pic": "picture"}
+"""Words that say the same."""
+
+
 def _fold(token: str) -> str:
     """Return a word without the ending of its plural and without spelling variants."""
     if _BANGLA.match(token):
         return _BANGLA_ENDING.sub("", token)
     if not token.isalpha():
         return token
-    word = fold_word(token)
+    word = _SAME.get(token, fold_word(token))
     return (
         word.removesuffix("s") if len(word) > len("axis") - 1 and not word.endswith("ss") else word
     )

@@ -26,7 +26,7 @@ _NUMBERED = re.compile(
 _NUMBERED_BEHIND = re.compile(rf"(?:for|at|in|of|für|bei) ({_LETTER}{{2,}}) (\d)(?= *(?:[,;)\n]|and |und |$))")
 _COUNTED_OFF = re.compile(r"(?:(?<=[\s,;])|^)\(?(\d)(?:[.)]|:(?! *\d+ *:)) +(?=[-+−~≈]?[.,]?\d)")
 _ASSIGNED = re.compile(r"[=:≈] *$")
-_PARTED = re.compile(r"[;\n]|,(?!\d)| / |,? (?:and|und|ও|এবং|with|mit|while|während) ")
+_PARTED = re.compile(r"[;\n]|,(?!\d)| / |,? (?:and|und|ও|এবং|আর|with|mit|while|während) ")
 _WORDS = re.compile(rf"{_LETTER}+(?:'|_?\d|_{_LETTER}+)*(?![^\W_])|_\d")
 _MARK = "_"
 """Before the number of a place, which is no value then."""

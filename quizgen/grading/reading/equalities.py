@@ -151,12 +151,20 @@ def _iter_lenient_sides(source: SourceText, decimal: str) -> Iterator[EqualitySi
             sides.append(side)
         elif not _LETTER.search(piece.text) or (piece is pieces[-1] and len(piece.text) > 3):
             return
-    units = [side.quantity.unit for side in reversed(sides) if side.quantity.unit]
-    unit = units[0] if units and units[0].text != "%" else None
-    for side in sides:
-        yield EqualitySide(
-            TypedQuantity(side.quantity.number, side.quantity.unit or unit), side.readings
-        )
+    yield from reversed([*_give_units(sides)])
+
+
+def _give_units(sides: list[EqualitySide]) -> Iterator[EqualitySide]:
+    """Yield the sides from the last on; one without a unit has that of the next one with one.
+
+    Behind the last unit there is only the one before it.
+    """
+    units = [side.quantity.unit for side in sides if side.quantity.unit]
+    unit = units[-1] if units and units[-1].text != "%" else None
+    for side in reversed(sides):
+        own = side.quantity.unit
+        unit = own if own and own.text != "%" else unit
+        yield EqualitySide(TypedQuantity(side.quantity.number, own or unit), side.readings)
 
 
 def _split_at_equal_signs(source: SourceText) -> Iterator[SourceText]:
