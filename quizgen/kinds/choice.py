@@ -13,7 +13,7 @@ from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import fold_word
 from quizgen.grading.judging.wordings import find_wording_in, holds_wording, share_words
 from quizgen.grading.options import GradingOptions
-from quizgen.grading.reading.answer_reader import AnswerForm, says_otherwise
+from quizgen.grading.reading.answer_reader import AnswerForm, is_denied, says_otherwise
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, PICTURES, normalise_typed
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, correct, partial, wrong
@@ -72,6 +72,8 @@ _FALSE = frozenset(
     | {"bhul", "mithya", "na"}
     | {"মিথ্যা", "মিথ্যে", "অসত্য", "ভূল", "বেঠিক", "না", "ভুল", "ম", "0", "2", "✗", "✘"}
 )
+_TAKING_BACK = frozenset({"না", "na", "নয়", "নয়"})
+"""Words that turn round the one before them: ``ভুল না`` is right."""
 _FEWEST_VALUES = 2
 """Values that there are to choose from, at least."""
 _USUAL_VALUES = 5
@@ -99,7 +101,7 @@ _DENIED = re.compile(
 """A word that is denied: what is not true is false, and the other way round."""
 _TRUTH_FIRST = re.compile(
     r"(?P<first>[^\s,;:.(]+)(?!(?<=\d)[.,]\d)"
-    r"(?:[,;:.] ?| (?=\()| ?[-–—] | (?=it |it's |that's |they |this |that |weil |because ))(?P<rest>.+)"
+    r"(?:[,;:.] ?| (?=\()| ?[-–—] | (?=it |it's |that's |you |we |there |they |this |that |weil |because ))(?P<rest>.+)"
 )
 """*Yes* or *false* with a reason behind it; ``0.5`` is neither."""
 _SHORT_DENIAL = re.compile(
@@ -113,6 +115,8 @@ _CONCLUSION = re.compile(
 )
 """What is concluded at the end: ``it is linear, so true``, ``less motion blur -> B``."""
 _PIECES = re.compile(r"[;\n]|,(?=\s*[\[(]?[A-Za-zক-ঞ\d][\])]?\s*[).:=-])")
+_BANGLA_WORDS = re.compile(r"(?!(?:এবং|ও|আর|বা) )[^;,&+]*[\u0980-\u09ff]{3,}[^;,&+]*")
+"""Words of Bangla behind a letter, and no further letter."""
 _BENGALI = re.compile(r"[\u0980-\u09ff]")
 _SET_OFF = re.compile(r"^[\[(]?(?:[^\W_]|\d{2}) ?[\]).:=-]+ ?[^\s,;]{2}|[\[(][^\W\d_][\])]$")
 """A letter with a sign before or behind words of more than one letter."""
@@ -516,7 +520,7 @@ def _find_truth_word(text: str) -> int:
     if word in _TRUE | _FALSE:
         return 1 if word in _TRUE else 2
     first, blank, second = word.partition(" ")
-    told = _find_truth_word(first) if blank else 0
+    told = _find_truth_word(first) if blank and second not in _TAKING_BACK else 0
     return told if told and told == _find_truth_word(second) else 0
 
 
@@ -553,9 +557,10 @@ def _parse_labelled_option(spec: ChoiceSpec, piece: str) -> int:
     meant = _find_meant_options(spec, match["words"], foreign=bool(_SET_OFF.search(text)))
     if not 1 <= position <= len(spec.choices()):
         return 0
-    if not meant and mark.isupper() and not says_otherwise(match["words"]):
-        shared = share_words(match["words"], [texts[position - 1] for texts in (spec.choices(), *spec.said)])
-        return position if shared else 0
+    if not meant and mark.isupper() and not is_denied(match["words"]):
+        own = [texts[position - 1] for texts in (spec.choices(), *spec.said)]
+        told = _BANGLA_WORDS.fullmatch(match["words"]) or share_words(match["words"], own)
+        return position if told and not _ALTERNATIVE.search(match["words"]) else 0
     if not meant:
         return 0
     if position not in meant and text.startswith("a ") and len(meant) == 1:
