@@ -326,11 +326,7 @@ def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:
         number = _PLACES.index(place[1].lower()) + 1
         return [number] if number <= len(spec.choices()) else []
     named = _LETTER_LAST.fullmatch(text)
-    if (
-        named is None
-        or says_otherwise(named["words"])
-        or _find_wording(spec, named["words"])
-    ):
+    if named is None or says_otherwise(named["words"]) or _find_wording(spec, named["words"]):
         return []
     position = LETTERS.find(named["mark"]) + 1
     return [position] if position <= len(spec.choices()) else []
