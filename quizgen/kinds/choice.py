@@ -72,7 +72,7 @@ _FALSE = frozenset(
     | {"bhul", "mithya", "na"}
     | {"মিথ্যা", "মিথ্যে", "অসত্য", "ভূল", "বেঠিক", "না", "ভুল", "ম", "0", "2", "✗", "✘"}
 )
-_TAKING_BACK = frozenset({"না", "na", "নয়", "নয়"})
+_TAKING_BACK = frozenset({"না", "na", "নয়"})
 """Words that turn round the one before them: ``ভুল না`` is right."""
 _FEWEST_VALUES = 2
 """Values that there are to choose from, at least."""
@@ -101,7 +101,8 @@ _DENIED = re.compile(
 """A word that is denied: what is not true is false, and the other way round."""
 _TRUTH_FIRST = re.compile(
     r"(?P<first>[^\s,;:.(]+)(?!(?<=\d)[.,]\d)"
-    r"(?:[,;:.] ?| (?=\()| ?[-–—] | (?=it |it's |that's |you |we |there |they |this |that |weil |because ))(?P<rest>.+)"
+    r"(?:[,;:.] ?| (?=\()| ?[-–—] "
+    r"| (?=it |it's |that's |you |we |there |they |this |that |weil |because ))(?P<rest>.+)"
 )
 """*Yes* or *false* with a reason behind it; ``0.5`` is neither."""
 _SHORT_DENIAL = re.compile(
@@ -141,7 +142,8 @@ _SET_APART = (
 _BRACKETED = re.compile(r"(?P<mark>[A-Za-zক-ঞ]) ?\((?P<words>[^()]{2,})\)")
 _ALL = frozenset({"all", "all of them", "all of these", "alle", "সব", "সবগুলো", "সবগুলি"})
 _ALL_BUT = re.compile(
-    r"(?:all|every(?:thing|one)?|alle|alles)(?: of them)?,? (?:but|except|without|außer|ohne)(?: for)? (?P<out>.+)"
+    r"(?:all|every(?:thing|one)?|alle|alles)(?: of them)?,? "
+    r"(?:but|except|without|außer|ohne)(?: for)? (?P<out>.+)"
     r"|(?P<before>.+?) (?:বাদে|ছাড়া|ছাড়া) (?:সব|বাকি সব)(?:গুলো|গুলি)?",
     re.IGNORECASE,
 )
@@ -272,16 +274,14 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
         return [whole]
     if spec.kind == "multi" and typed.casefold().strip(_AROUND) in _ALL:
         return list(range(1, len(spec.choices()) + 1))
-    but = _ALL_BUT.fullmatch(typed.strip(_AROUND)) if spec.kind == "multi" else None
-    if but:
+    if but := _ALL_BUT.fullmatch(typed.strip(_AROUND)) if spec.kind == "multi" else None:
         left_out = _read_positions(spec, but["out"] or but["before"])
         return [one for one in range(1, len(spec.choices()) + 1) if one not in left_out]
     if {*map(str.casefold, spec.choices())} == {"yes", "no"} and (truth := read_truth(typed)):
         return [spec.choices().index(("yes", "no")[truth - 1]) + 1]
-    if said := _find_option_by_truth(spec, typed):
-        return [said]
     read = (
-        _parse_labelled_options(spec, typed)
+        _find_option_by_truth(spec, typed)
+        or _parse_labelled_options(spec, typed)
         or _read_set_apart(spec, typed)
         or _find_option_by_its_end(spec, typed)
     )
@@ -295,21 +295,21 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
     return (spec.kind == "choice" and len(read) > 1 and _find_worded_options(spec, typed)) or read
 
 
-def _find_option_by_truth(spec: ChoiceSpec, typed: str) -> int:
+def _find_option_by_truth(spec: ChoiceSpec, typed: str) -> list[int]:
     """Return the place of the only option that begins with *Yes* or *No*, as the answer does.
 
-    0 if several do, if the answer says neither, or if the words behind it mean another option.
+    None if several do, if the answer says neither, or if the words behind it mean another option.
     """
     leading = [read_truth(re.split(r"[,;:. ]", option, maxsplit=1)[0]) for option in spec.choices()]
     if {*leading} - {0} != {1, 2}:
-        return 0
+        return []
     first, _, rest = typed.strip(_AROUND).partition(" ")
     truth = read_truth(typed) or _find_truth_word(first.strip(",;:."))
     if not truth or leading.count(truth) != 1 or _ALTERNATIVE.search(typed):
-        return 0
+        return []
     place = leading.index(truth) + 1
     denied = says_otherwise(rest) and not read_truth(typed)
-    return place if _find_wording(spec, typed) in {0, place} and not denied else 0
+    return [place] if _find_wording(spec, typed) in {0, place} and not denied else []
 
 
 def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:

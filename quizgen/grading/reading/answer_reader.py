@@ -144,7 +144,8 @@ _ROUNDING = re.compile(
 )
 _BECOMING = re.compile(
     r"^([^\d]*(?:drop|fall|rise|wrap|goe|come|grow|change|sink|amount|shrink|increase|decrease|lead|"
-    r"saturate|clip|clamp|round)(?:s|ed|ped|es)?(?: (?:around|round|down|up|back|over|it))?) to (?=[-+−≈~]?[.,]?\d)",
+    r"saturate|clip|clamp|round)(?:s|ed|ped|es)?"
+    r"(?: (?:around|round|down|up|back|over|it))?) to (?=[-+−≈~]?[.,]?\d)",
     re.IGNORECASE,
 )
 """What tells where a value goes, ``it drops to 208``: ``to`` is no range then."""
@@ -237,7 +238,8 @@ def _find_conclusion(text: str) -> Iterator[str]:
 
 
 _CONCLUDED = re.compile(
-    r".*\d.*?[,;:.]? (?:exactly|precisely|genau|so|thus|hence|therefore|daher|deshalb|তাই|সুতরাং),? (?P<rest>[^,;]*\d[^,;]*)",
+    r".*\d.*?[,;:.]? (?:exactly|precisely|genau|so|thus|hence|therefore|daher|deshalb|তাই|সুতরাং)"
+    r",? (?P<rest>[^,;]*\d[^,;]*)",
     re.IGNORECASE | re.DOTALL,
 )
 

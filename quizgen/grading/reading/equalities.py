@@ -224,7 +224,7 @@ def _check_sides_agree(source: SourceText, sides: list[EqualitySide]) -> None:
 
 
 def _is_rounded_to(source: SourceText, before: EqualitySide, side: EqualitySide) -> bool:
-    """Return whether a whole number behind an arrow or ≈ is the one before it, rounded: ``2.8 → 3``."""
+    """Return whether a whole number behind an arrow or ≈ rounds what is before it: ``2.8 → 3``."""
     whole = side is not before and side.readings.main.form == "integer"
     if not whole or not _ROUNDED.search(source.text):
         return False
@@ -239,7 +239,7 @@ _ROUNDED = re.compile(r"(?:→|->|≈|=>|⇒) ?[-−]?\d+(?![.,]?\d)[^\d=]*$")
 def _without_percent(
     first: EqualitySide, second: EqualitySide
 ) -> tuple[EqualitySide, EqualitySide]:
-    """Return two sides of which only one has a percent sign as plain numbers: ``100 - 68 = 32 %``."""
+    """Return two sides as plain numbers if only one has a percent sign: ``100 - 68 = 32 %``."""
     if _is_percent(first) == _is_percent(second):
         return first, second
     one, other = map(_drop_percent, (first, second))
