@@ -528,7 +528,10 @@ MOST_SYNONYMS = 3
 
 def input_hints(spec: GapSpec, lang: str) -> tuple[str, ...]:
     """Return how to fill in several gaps: with numbers where no gap takes another word."""
-    numbers = all(gap[0].isdecimal() for gap in spec.gaps())
+    gaps = spec.gaps()
+    if len(gaps) == 1:
+        return (translate(lang, "ask.gap_one"),)
+    numbers = all(gap[0].isdecimal() for gap in gaps)
     return (translate(lang, "ask.gap_numbers" if numbers else "ask.gap"),)
 
 
