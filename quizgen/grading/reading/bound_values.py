@@ -123,7 +123,7 @@ def _list_words(text: str) -> list[str]:
 
 
 def _find_meant(words: list[str], names: AskedNames, asked: list[str]) -> str | None:
-    """Return the name that words mean, '' if none; None if several, or if they may not stand there."""
+    """Return the name that words mean, '' if none; None if several, or if they say otherwise."""
     if len(words) > _MOST_WORDS or {*words} & _list_refused():
         return None
     found = set()
