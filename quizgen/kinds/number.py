@@ -123,7 +123,8 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
         verdict = best_verdict(_judge_side(self, side, source, options) for side in sides)
         if verdict.credit or not {*self.counts} & MILLIONS or not _MILLION.search(typed):
             return verdict
-        said = self.judge(_MILLION.sub("", typed), options)  # 50 million for 50 Mpx
+        last = re.split("[=≈]", typed)[-1]
+        said = self.judge(_MILLION.sub("", last), options)  # 50 million for 50 Mpx
         return said if said.credit else verdict
 
     @property
