@@ -19,10 +19,11 @@ from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.formulas import parse_authored, read_formula
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, ambiguous, correct, wrong
-from quizgen.kinds.asking import hint, make_spec, misconception_specs
+from quizgen.kinds.asking import make_spec, misconception_specs
 from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredAnswer, PartContext
 from quizgen.kinds.forms import require_form, typeset_key
 from quizgen.kinds.work import count_once
+from quizgen.locale import translate
 from quizgen.maths.constants import evaluate_constant
 from quizgen.maths.notation import FormulaReadError, format_tree, pretty
 from quizgen.maths.tree import Call, Expr, make_number, names_in
@@ -168,6 +169,12 @@ def ask(part: PartContext) -> AskedPart[EquationSpec]:
     return AskedPart(spec, mistakes=misconception_specs(spec, "value"))
 
 
+def input_hints(spec: EquationSpec, lang: str) -> tuple[TextOrInlines, ...]:
+    """Return how an equation or an inequality is typed, whichever is asked."""
+    is_equation = _parse_authored_relation(spec.value, tuple(spec.symbols)).op == "eq"
+    return (translate(lang, "ask.equation" if is_equation else "ask.inequality"),)
+
+
 def explain_key(spec: EquationSpec, _lang: str) -> TextOrInlines:
     """The equation as it is written by hand."""
     return typeset_key(parse_authored(spec.value, tuple(spec.symbols)))
@@ -177,7 +184,7 @@ KIND = AnswerKind(
     AuthoredEquation,
     EquationSpec,
     ask,
-    hint("ask.equation"),
+    input_hints,
     explain_key,
     work=count_once("line derived", 2),
 )
