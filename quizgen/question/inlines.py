@@ -151,6 +151,14 @@ def assignment_inlines(values: Iterable[tuple[str, str]]) -> tuple[Inline, ...]:
     )
 
 
+def begin_sentence(said: tuple[Inline, ...]) -> tuple[Inline, ...]:
+    """Return a sentence that begins with a capital, but for a single letter, as in ``f-number``."""
+    first, *rest = said
+    if not isinstance(first, PlainText) or not re.match("[a-z]{2}", first.text):
+        return said
+    return (PlainText(first.text[0].upper() + first.text[1:]), *rest)
+
+
 def translate_inlines(lang: str, key: str, **blanks: tuple[Inline, ...]) -> tuple[Inline, ...]:
     """Return a sentence of the interface with inlines in its blanks."""
     marks = {name: f"\0{name}\0" for name in blanks}

@@ -132,9 +132,6 @@ class _TypstPaper:
         rows = [f"rule([{translate_all(self.langs, 'paper.aids')}], [{aids}])"]
         for name in ("numbers", "working", "ticks"):
             said = [self._typeset_paper_word(name, lang) for lang in self.langs]
-            if name == "ticks":
-                times = [self._typeset_paper_word("time", lang) for lang in self.langs]
-                said = [f"{one} {time}" for one, time in zip(said, times, strict=True)]
             if name == "numbers" and self.scanned:
                 cells = [self._typeset_paper_word("cells", lang) for lang in self.langs]
                 said = [f"{one} {cell}" for one, cell in zip(said, cells, strict=True)]
@@ -162,6 +159,8 @@ class _TypstPaper:
             f"{format_marks(paper.points, main)}, {paper.minutes} {minutes}, "
             f"{len(paper.items)} {translate(main, f'paper.{count}')}"
         )
+        if self.kind == "exam":
+            total = f"{total}. {translate(main, 'paper.time')}"
         rows = [("code", f"raw({typst_literal(paper.code)})"), ("total", typst_literal(total))]
         if paper.holder:
             known = (("name", paper.holder.name), ("matriculation", paper.holder.id))
