@@ -33,7 +33,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 ROOMS = ("grading", "kinds", "bank", "paper", "classes", "web")
-SECONDS, PATIENCE = 20.0, 900.0
+SECONDS, PATIENCE = 8.0, 900.0
 """Of CPU, how much in tests one mutant meets; of a clock, after how much it hangs."""
 SWAPS: dict[type, type] = {
     ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt, ast.Eq: ast.NotEq,
@@ -51,7 +51,7 @@ def on(number):
             open(f"{HITS}/{number}", "w").close()
     return number == active
 """
-"""What the copy imports: processes that a test starts know the mutant, and tell that they met it."""
+"""What the copy imports: processes that a test starts know the mutant and tell that they met it."""
 ON = "__import__('mutant_switch').on({number})"
 
 
