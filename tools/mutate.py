@@ -144,7 +144,7 @@ def write_switches(folder: Path, each: int, seed: int) -> dict[int, Mutant]:
         mine: list[Mutant] = []
         for one in every:
             apart = (one.file != m.file or one.end <= m.start or m.end <= one.start for m in mine)
-            if len(mine) < each and all(apart):
+            if len(mine) < each and one.new != one.old and all(apart):
                 mine.append(one)
         chosen |= {start + len(ROOMS) * turn: one for turn, one in enumerate(mine)}
     for number, one in sorted(chosen.items(), key=lambda pair: -pair[1].start):
@@ -191,9 +191,8 @@ class Runner:
         """Return the quickest tests, as far as there is time."""
         items = sorted(items, key=lambda one: self.seconds[one.nodeid])
         spent = itertools.accumulate(self.seconds[one.nodeid] for one in items)
-        return [one for one, until in zip(items, spent, strict=True) if until < SECONDS] or items[
-            :1
-        ]
+        chosen = [one for one, until in zip(items, spent, strict=True) if until < SECONDS]
+        return chosen or items[:1]
 
     def _map(self, items: list[Any], found: Path) -> int:
         """Run the tests of a file; keep which mutants those that pass meet, and their CPU time."""

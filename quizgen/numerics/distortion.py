@@ -15,7 +15,7 @@ from quizgen.numerics.rational import ONE, exact_arguments, from_dyadic, to_dyad
 from quizgen.numerics.typing import Array, Counts, Flags, FloatOrArray, Numbers
 from quizgen.numerics.ufunc import StableUfunc, all_within, smallest_nonzero
 
-_UNSURE = 2.0**-50
+_UNSURE = 2.0**-40
 _REACH = 2.0**60
 _TAME = 4.0
 """With coefficients up to it, relative to r_d, units may stay."""
