@@ -158,8 +158,8 @@ def write_switches(folder: Path, each: int, seed: int) -> dict[int, Mutant]:
 class Runner:
     """A pytest plugin that runs the tests for every mutant instead of once."""
 
-    def __init__(self, mutants: dict[int, Mutant], out: Path) -> None:
-        self.mutants, self.out, self.failed = mutants, out, False
+    def __init__(self, mutants: dict[int, Mutant], out: Path, key: object) -> None:
+        self.mutants, self.out, self.key, self.failed = mutants, out, key, False
         self.meets: dict[str, set[int]] = {}
         self.seconds: dict[str, float] = {}
 
@@ -168,23 +168,32 @@ class Runner:
         self.failed |= report.failed
 
     def pytest_runtestloop(self, session: Any) -> bool:
-        """Find who meets which mutant, then try each."""
+        """Find who meets which mutant, then try each; go on where a run of the same was cut off."""
         forget_all()
-        for _, items in itertools.groupby(session.items, key=lambda one: one.path):
-            found = Path("found.pickle")
-            found.unlink(missing_ok=True)
-            run_child(partial(self._map, [*items], found))
-            if found.exists():
-                meets, seconds = pickle.loads(found.read_bytes())  # noqa: S301 - written just now
-                self.meets |= meets
-                self.seconds |= seconds
-        with self.out.open("w", encoding="utf-8", buffering=1) as table:
+        kept, found, files = self.out.with_suffix(".pickle"), Path("found.pickle"), {}
+        if kept.exists():
+            key, files = pickle.loads(kept.read_bytes())  # noqa: S301 - this tool's own
+            files = files if key == self.key else {}
+        if not files:
+            self.out.unlink(missing_ok=True)
+        for path, items in itertools.groupby(session.items, key=lambda one: one.path.name):
+            if path not in files:
+                found.write_bytes(pickle.dumps(({}, {})))
+                run_child(partial(self._map, [*items], found))
+                files[path] = pickle.loads(found.read_bytes())  # noqa: S301
+                kept.write_bytes(pickle.dumps((self.key, files)))
+            self.meets |= files[path][0]
+            self.seconds |= files[path][1]
+        with self.out.open("a+", encoding="utf-8", buffering=1) as table:
+            table.seek(0)
+            done = {tuple(line.split("\t")[1:4]) for line in table}
             for number, mutant in self.mutants.items():
                 items = [t for t in session.items if number in self.meets.get(t.nodeid, ())]
                 near = self._choose(items)
-                result, killer = self._find_result(near, number)
-                met = f"{len(near)} of {len(items)}"
-                print(result, *mutant.row, mutant.line, met, killer, sep="\t", file=table)
+                if mutant.row not in done:
+                    result, killer = self._find_result(near, number)
+                    met = f"{len(near)} of {len(items)}"
+                    print(result, *mutant.row, mutant.line, met, killer, sep="\t", file=table)
         return True
 
     def _choose(self, items: list[Any]) -> list[Any]:
@@ -309,7 +318,8 @@ def main() -> int:
     mutants = write_switches(folder, args.each, args.seed)
     if args.again:
         mutants = {n: one for n, one in mutants.items() if ("SURVIVED", *one.row) in again}
-    runner = Runner(mutants, out)
+    commit = subprocess.run(["git", "rev-parse", "HEAD"], capture_output=True, check=True).stdout
+    runner = Runner(mutants, out, (commit, args.each, args.seed, args.tests))
     options = ["-n", "0", "-s", "-p", "no:cacheprovider", "--basetemp", str(folder / "tmp")]
     pytest.main([*options, *args.tests.split()], [runner])
     shutil.rmtree(folder)
