@@ -170,7 +170,8 @@ class Runner:
     def pytest_runtestloop(self, session: Any) -> bool:
         """Find who meets which mutant, then try each; go on where a run of the same was cut off."""
         forget_all()
-        kept, found, files = self.out.with_suffix(".pickle"), Path("found.pickle"), {}
+        kept, found = self.out.with_suffix(".pickle"), Path("found.pickle")
+        files: dict[str, tuple[dict[str, set[int]], dict[str, float]]] = {}
         if kept.exists():
             key, files = pickle.loads(kept.read_bytes())  # noqa: S301 - this tool's own
             files = files if key == self.key else {}
@@ -188,11 +189,11 @@ class Runner:
             table.seek(0)
             done = {tuple(line.split("\t")[1:4]) for line in table}
             for number, mutant in self.mutants.items():
-                items = [t for t in session.items if number in self.meets.get(t.nodeid, ())]
-                near = self._choose(items)
+                all_met = [t for t in session.items if number in self.meets.get(t.nodeid, ())]
+                near = self._choose(all_met)
                 if mutant.row not in done:
                     result, killer = self._find_result(near, number)
-                    met = f"{len(near)} of {len(items)}"
+                    met = f"{len(near)} of {len(all_met)}"
                     print(result, *mutant.row, mutant.line, met, killer, sep="\t", file=table)
         return True
 
@@ -240,13 +241,13 @@ class Runner:
     def _try(self, items: list[Any], number: int, place: Path) -> int:
         """Run tests up to the first that fails; write down at which this is.
 
-        What the bank keeps on disk would hide its mutants, and outlive them.
+        What bank and papers keep on disk would hide their mutants, and outlive them.
         """
         import mutant_switch
 
         mutant_switch.HITS, mutant_switch.active = None, number
         os.environ |= {"MUTANT": str(number), "MUTANT_HITS": ""}
-        if number >= 0 and "/bank/" in self.mutants[number].file:
+        if number >= 0 and Path(self.mutants[number].file).parts[1] in {"bank", "paper"}:
             os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp(dir=".")
         self.failed = False
         for at, item in enumerate(items):
