@@ -164,7 +164,7 @@ def explain_verdict(spec: AnySpec, verdict: Verdict, lang: str, *, reveal: bool 
 
     Parameters
     ----------
-    spec : Spec
+    spec : AnySpec
     verdict : Verdict
     lang : str
     reveal : bool

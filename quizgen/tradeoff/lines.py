@@ -34,7 +34,7 @@ def image_distance(f: Column, z: Column) -> Column:
 
 
 def blur_disc(f: Column, N: Column, s: Column, z: Column) -> Column:
-    """Return the diameter of the blur disc of a point at z, focused at s."""
+    """Return the diameter of the blur disc of a point at z, focused at s; lengths in one unit."""
     return (f / N) * (f / (s - f)) * (np.abs(z - s) / z)
 
 
