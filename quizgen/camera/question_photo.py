@@ -148,7 +148,7 @@ class QuestionPhoto:
     take_without: Callable[[], Photo]
 
     @cached_property
-    def plain_photo(self) -> Photo:
+    def without(self) -> Photo:
         """The same photograph without the effects that are asked about."""
         return self.take_without()
 

@@ -240,7 +240,7 @@ def _choose_pictures(shot: SimulatedShot) -> dict[str, Photo]:
     """Return two pictures to compare, by what they show."""
     if shot.taken is not None:
         asked = ", ".join(shot.plan.asked)
-        return {f"with {asked}": shot.photo, f"without {asked}": shot.taken.plain_photo}
+        return {f"with {asked}": shot.photo, f"without {asked}": shot.taken.without}
     return {"what is run": shot.photo, "everything": shot.whole or shot.photo}
 
 

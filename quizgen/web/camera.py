@@ -193,11 +193,11 @@ class CameraJob:
         found = [one.name for one in prepared.present if not one.always]
         chosen = self.effect if self.effect in (*found, EVERYTHING) else ""
         taken = self._take_photo(scene, camera, found, chosen)
-        scale, apart = amplify_difference(taken.photo.values, taken.plain_photo.values)
+        scale, apart = amplify_difference(taken.photo.values, taken.without.values)
         return msgspec.msgpack.encode(
             CameraView(
                 taken=_encode_picture(taken.photo.values),
-                plain=_encode_picture(taken.plain_photo.values),
+                plain=_encode_picture(taken.without.values),
                 difference=_encode_png(apart),
                 scale=scale if apart.any() else 0,
                 asked=list(taken.plan.asked),
