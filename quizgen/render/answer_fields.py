@@ -110,7 +110,7 @@ def typeset_letters(said: Prose) -> Prose:
 
 
 def _typeset_letters(said: Any) -> Any:
-    """Return the same structure, whatever it is made of."""
+    """Return prose of any structure with its letters typeset."""
     if isinstance(said, InlineCode):
         return name_inline(said.text) if _LETTER.fullmatch(said.text) else said
     if isinstance(said, Paragraph | ListBlock | TableBlock | Emphasis):

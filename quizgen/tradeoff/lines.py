@@ -1,5 +1,6 @@
 """Plain lines of NumPy that keep their digits, and others that a reader might write instead.
 
+Letters are those of the chapter (f, N, z, s, c), lengths all in one unit, intensities 0 to 1.
 None looks at its arguments: what a line gives where there is no answer (a pole, a grey) is not
 defined.
 """
@@ -34,7 +35,7 @@ def image_distance(f: Column, z: Column) -> Column:
 
 
 def blur_disc(f: Column, N: Column, s: Column, z: Column) -> Column:
-    """Return the diameter of the blur disc of a point at z, focused at s; lengths in one unit."""
+    """Return the diameter of the blur disc of a point at z, focused at s."""
     return (f / N) * (f / (s - f)) * (np.abs(z - s) / z)
 
 
