@@ -225,9 +225,9 @@ class Class:
         return page
 
     async def save(self, client: httpx2.AsyncClient, number: int) -> httpx2.Response:
-        """Save an answer, as a page does every few seconds."""
-        count = len(self.sittings)
-        who = number % count
+        """Save an answer, as a page of somebody who has begun does every few seconds."""
+        count = len(self.parts)
+        who = [*self.parts][number % count]
         part = self.parts[who][number // count % len(self.parts[who])]
         body = {"token": csrf_token(self.tokens[who]), f"on-{part}": "", f"a-{part}": f"{number},5"}
         return await client.post(self.sittings[who], data=body, headers=self._who(who))
@@ -411,7 +411,7 @@ class Seated(Class):
 
     async def ask(self, client: httpx2.AsyncClient, number: int) -> httpx2.Response:
         """Ask whether anything has changed, as a page does every 8 s."""
-        who = number % len(self.codes)
+        who = [*self.tags][number % len(self.tags)]
         at = f"/seat/state?tag={self.tags[who]}"
         answer = await client.get(at, headers=self._who(who))
         answer.status_code = 200 if answer.status_code == 204 else 500
@@ -419,6 +419,8 @@ class Seated(Class):
 
     async def hand_in(self, client: httpx2.AsyncClient, number: int) -> httpx2.Response:
         """Hand in; what is marked is the form in the folder."""
+        if number not in self.sittings:
+            raise httpx2.HTTPError("has not begun")
         sent = {"token": csrf_token(self.tokens[number]), "do": "hand-in"}
         return await client.post(self.sittings[number], data=sent, headers=self._who(number))
 

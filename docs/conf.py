@@ -9,8 +9,12 @@ from __future__ import annotations
 import re
 from typing import Any
 
+from docutils import nodes
+
 import quizgen
 
+LONGEST_NAME = 30
+"""Characters of a name that stands on one line of a cell."""
 project = "quizgen"
 author = copyright = "quizgen contributors"
 version = release = quizgen.__version__
@@ -19,6 +23,8 @@ html_theme = "furo"
 html_title = f"quizgen {release}"
 html_copy_source = False
 html_show_sphinx = False
+html_static_path = ["static"]
+html_css_files = ["site.css"]
 myst_heading_anchors = 4
 myst_links_external_new_tab = False
 suppress_warnings = ["myst.header"]  # the first heading of an included page is its title
@@ -41,8 +47,17 @@ def _link_pages(_app: object, _file: object, _page: str, source: list[str]) -> N
         source[0] = source[0].replace(f"]({name}.md", f"](docs/{name.lower()}.md")
 
 
+def _mark_long_names(_app: object, doctree: nodes.document) -> None:
+    """Let a line end in a long name in a table: it would leave its neighbours no room."""
+    for entry in doctree.findall(nodes.entry):
+        for name in entry.findall(nodes.literal):
+            if max(map(len, name.astext().split()), default=0) > LONGEST_NAME:
+                name["classes"].append("long")
+
+
 def setup(app: Any) -> dict[str, bool]:
     """Connect what is done to each page before it is read."""
     app.connect("source-read", _unlink_outside)
     app.connect("include-read", _link_pages)
+    app.connect("doctree-read", _mark_long_names)
     return {"parallel_read_safe": True}

@@ -3,7 +3,8 @@
 Values are in base units, so a formula of a step must have the dimension of the unit that the step
 is shown in. Things that are counted (pixels, bits, grey levels, ...) come and go in formulas:
 only kinds of quantities with a size are compared, and a formula of plain numbers alone may give any
-(one second by the number on a dial).
+(one second by the number on a dial), if its unit is a base unit: else a number that was meant in
+that unit would be off by a factor.
 
 Angles have a rule of their own, since a wrong one is off by 57 and looks well: inverse functions
 give radians, as SymPy's do, and functions take them. ``180/pi`` times radians is degrees. So a step
@@ -19,7 +20,7 @@ from quizgen.bank.template import Template
 from quizgen.core.errors import BankError
 from quizgen.kinds.contract import asked_quantities
 from quizgen.maths.chain import ChainStep
-from quizgen.maths.notation import format_tree
+from quizgen.maths.notation import format_tree, pretty
 from quizgen.maths.operators import BINDERS, OPERATORS, OperatorSyntax, operators_with_syntax
 from quizgen.maths.tree import Call, Expr, Num, Sym, names_in
 from quizgen.maths.units import UnitRegistry
@@ -125,6 +126,12 @@ def _check_step(
         yield (
             f"{written} is in {_format_dimension(found)}, and "
             f"the step says {step.unit or 'a plain number'!r}"
+        )
+    elif plain and found == {} and shown and units.factor(step.unit) != 1:
+        yield (
+            f"{written} is a plain number, and formulas are in base units: 1 would be "
+            f"{pretty.format_number(str(1 / units.factor(step.unit)))} {step.unit}. "
+            f"Draw its numbers with their units"
         )
     elif shown == _RADIANS and found == _DEGREES:
         yield f"{written} is in degrees, and the step says {step.unit!r}: write pi/180*(...)"

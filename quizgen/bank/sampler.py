@@ -151,7 +151,8 @@ class _Variable(msgspec.Struct, frozen=True):
 def describe_list_fault(error: Exception) -> str:
     """Return what is wrong in a formula; Python's word for a sum with a list names only types."""
     if isinstance(error, KeyError):
-        return f"{error.args[0]} is a text, where a number is needed"
+        name = error.args[0]
+        return f"{name} is a text, where a number is needed (draw a number, and its words by it)"
     return "a list stands where a number is needed" if isinstance(error, TypeError) else str(error)
 
 
@@ -166,6 +167,27 @@ class _Condition(msgspec.Struct, frozen=True):
 def _make_test_of_name(name: str, test: Callable[[Value], bool]) -> Callable[[Values], bool]:
     """Return a test of all values that tests the one of this name."""
     return lambda env: test(env[name])
+
+
+def _list_statements(answer: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return the conditions of which one must hold, so that an option can be ticked at all."""
+    options = answer.get("options", {}) if answer.get("kind") == "multi" else {}
+    conditions = tuple(options.values()) if isinstance(options, Mapping) else ()
+    fixed = "take" in answer or not all(isinstance(one, str) for one in conditions)
+    return () if fixed else conditions
+
+
+def _holds_if_known(test: CompiledFormula) -> Callable[[Values], bool]:
+    """Return a test of all values that passes where a text stands among them."""
+
+    def holds(env: Values) -> bool:
+        """Return whether the condition holds, or cannot be told here."""
+        try:
+            return bool(test(env))
+        except KeyError:
+            return True
+
+    return holds
 
 
 class Sampler:
@@ -264,6 +286,13 @@ class Sampler:
         for name, rule in self.template.rules.keep.items():
             test = compile_keep_test(rule)
             yield _Condition(f"keep.{name}", _make_test_of_name(name, test), frozenset({name}))
+        for index, part in enumerate(self.template.rules.part, 1):
+            statements = _list_statements(part.answer)
+            if statements:
+                trees = [self.template.parse_formula(text) for text in statements]
+                some = self.compile_formula(" or ".join(f"({text})" for text in statements))
+                needs = frozenset().union(*map(names_in, trees))
+                yield _Condition(f"part {index}: no option is right", _holds_if_known(some), needs)
 
     def propose(self, stem: str, attempt: int) -> DrawnValues | None:
         """Return the values of one try, before any condition; the precision is stated around it.

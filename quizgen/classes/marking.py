@@ -64,6 +64,7 @@ from quizgen.classes.scanning.scan_folder import (
     TYPED,
     ScanFolder,
     find_crop,
+    read_proposals,
 )
 from quizgen.core.errors import ClassError
 from quizgen.locale import BOTH, FIRST
@@ -171,6 +172,8 @@ class AnswerIndex:
             if self.is_to_be_read(case)
         }  # fmt: skip
         """What nobody has typed and a picture shows, to the group."""
+        self.proposals = read_proposals(folder)
+        """What may stand there, by student and part."""
         self._names = {one.id: one.name for one in self.folder.students()}
 
     def _order(self, item: str) -> tuple[int, str]:

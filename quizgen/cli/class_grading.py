@@ -400,7 +400,7 @@ def analyse(folder: Path, lang: str, earlier: tuple[Path, ...]) -> None:
     results/items.csv has its figures, results/templates.csv those of each part of a template, over
     all classes that are named.
     """
-    from quizgen.classes.analysis_page import write_analysis_page
+    from quizgen.classes.analysis_page import TABLE, write_analysis_page
     from quizgen.classes.class_folder import ClassFolder
     from quizgen.classes.template_history import write_template_history
 
@@ -412,6 +412,7 @@ def analyse(folder: Path, lang: str, earlier: tuple[Path, ...]) -> None:
         low, high = found.interval
         print_sentence(f"Cronbach's alpha {found.alpha:.2f} (95 % {low:.2f} to {high:.2f})")
     print_sentence(str(path))
+    print_sentence(str(path.with_name(TABLE)))
     others = [ClassFolder(one) for one in earlier]
     print_sentence(str(write_template_history(ClassFolder(folder), others)))
 

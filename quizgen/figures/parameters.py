@@ -92,6 +92,10 @@ def _check_value(figure: str, name: str, rule: Parameter, values: Values) -> Any
     return tuple(tuple(_check_number(figure, name, rule, item) for item in row) for row in table)
 
 
+_WORDS = {"number": "text", "list": "texts", "table": "texts"}
+"""The kind that takes words where another takes numbers."""
+
+
 def _require_list(figure: str, name: str, value: Any) -> list[Any]:
     """Return an array, list or tuple as a list; raise ``BankError`` for anything else."""
     if hasattr(value, "tolist"):  # an array
@@ -103,7 +107,8 @@ def _require_list(figure: str, name: str, value: Any) -> list[Any]:
 def _check_number(figure: str, name: str, rule: Parameter, given: Any) -> float:
     """Return a number that is finite, whole if asked, and in range; else raise ``BankError``."""
     number = isinstance(given, (int, float)) and not isinstance(given, bool)
-    require(figure, number, f"{name} = {given!r} is not a number")
+    words = f' (words are kind="{_WORDS[rule.kind]}")' if isinstance(given, str) else ""
+    require(figure, number, f"{name} = {given!r} is not a number{words}")
     value = float(given) + 0.0  # the sum turns -0.0 into 0.0
     inside = math.isfinite(value) and rule.low <= value <= rule.high
     require(figure, inside, f"{name} = {value:g} is not between {rule.low:g} and {rule.high:g}")

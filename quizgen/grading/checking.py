@@ -14,6 +14,7 @@ from collections.abc import Iterable, Mapping
 from contextlib import redirect_stdout
 from fractions import Fraction
 from functools import cache, lru_cache
+from importlib import import_module
 from importlib.machinery import ModuleSpec, SourceFileLoader
 from importlib.util import module_from_spec
 from io import StringIO
@@ -25,6 +26,7 @@ import msgspec
 from quizgen.core.errors import QuizgenError
 from quizgen.core.trusted_files import find_trusted_file
 from quizgen.grading.reading.formulas import read_formula
+from quizgen.grading.reading.matrices import split_matrix
 from quizgen.maths.notation import FormulaReadError
 
 if TYPE_CHECKING:
@@ -102,13 +104,14 @@ def _run_within_time(
     """Run a check in this process, for ``SECONDS`` at most where there is such a timer."""
     timed = hasattr(signal, "setitimer") and threading.current_thread() is threading.main_thread()
     try:
+        check = _load_check(source)[function]  # before the clock: an import that is cut stays broken
         before = signal.signal(signal.SIGALRM, _end_check) if timed else None
         if timed:
             signal.setitimer(signal.ITIMER_REAL, SECONDS)
         try:
             given = {name: _to_python(value) for name, value in values.items()}
             with redirect_stdout(StringIO()):
-                found = _load_check(source)[function](given, typed)
+                found = check(given, typed)
         finally:
             if timed:
                 signal.setitimer(signal.ITIMER_REAL, 0)
@@ -147,6 +150,8 @@ class _TrustedSource(SourceFileLoader):
 @lru_cache(maxsize=64)
 def _load_check(source: bytes) -> dict[str, Any]:
     """Return the names of a check's module, run once for each text of it."""
+    if b"sympy" in source:  # which read_as_sympy needs, too
+        import_module("sympy")
     loader = _TrustedSource(source)
     module = module_from_spec(ModuleSpec("check", loader, origin=CHECK))
     loader.exec_module(module)
@@ -177,7 +182,26 @@ def _read_outcome(found: Any) -> CheckOutcome:
     return CheckOutcome(fault=what[:500])
 
 
-def read_as_sympy(typed: str, symbols: str | Iterable[str]) -> Any:
+def read_matrix_as_sympy(typed: str, symbols: str | Iterable[str] = "") -> Any:
+    """Return a typed matrix, ``[1, 2; 3, 4]`` or a row on each line, as a SymPy matrix.
+
+    Parameters
+    ----------
+    typed : str
+    symbols : str or iterable of str
+        The names that its entries may have.
+
+    Raises
+    ------
+    FormulaReadError
+        If it cannot be read; a check that lets it pass has the answer asked back.
+    """
+    from sympy import Matrix
+
+    return Matrix([[read_as_sympy(one, symbols) for one in row] for row in split_matrix(typed)])
+
+
+def read_as_sympy(typed: str, symbols: str | Iterable[str], *, log: str = "") -> Any:
     """Return a typed formula as a SymPy expression; nothing that was typed is run as code.
 
     Parameters
@@ -186,13 +210,21 @@ def read_as_sympy(typed: str, symbols: str | Iterable[str]) -> Any:
         As students type it: ``2x^2 + sin 3x``, LaTeX, decimal commas.
     symbols : str or iterable of str
         The names that it may have, such as ``"x C1 C2"``.
+    log : {"", "ln", "log2", "log10"}
+        What ``log`` without a base means; without it, such an answer is asked back.
 
     Raises
     ------
     FormulaReadError
-        If it cannot be read; a check that lets it pass has the answer asked back.
+        If it cannot be read or has no value, as 1/0; a check that lets it pass has the answer
+        asked back.
     """
+    from sympy import nan, oo, zoo
+
     from quizgen.grading.judging.sympy_equality import to_sympy
 
     names = symbols.split() if isinstance(symbols, str) else list(symbols)
-    return to_sympy(read_formula(typed, names).tree, frozenset(), real=False)
+    found = to_sympy(read_formula(typed, names, log=log).tree, frozenset(), real=False)
+    if found.has(nan, zoo, oo):
+        raise FormulaReadError("no-value", 1, typed)
+    return found

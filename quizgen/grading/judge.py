@@ -15,6 +15,7 @@ from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import (
     AnswerForm,
     drop_bullets,
+    drop_counting,
     drop_markup,
     has_second_meaning,
     is_cut_short,
@@ -128,7 +129,7 @@ def _ask_what_is_meant(form: AnswerForm, typed: str, verdict: Verdict) -> Verdic
 def _prepare(typed: str, form: AnswerForm) -> str:
     """Return the text that is judged first: without what would make a right answer a wrong one."""
     if form == "values":
-        return prove_groups(typed)
+        return prove_groups(drop_counting(typed))
     if form == "word":
         return drop_bullets(drop_markup(typed))
     return drop_markup(typed) if form == "option" else typed

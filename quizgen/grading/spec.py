@@ -215,6 +215,17 @@ def is_whole_number(value: Value) -> bool:
     return isinstance(value, fmpq) and value.q == 1
 
 
+LEAST_GROUPED = 1000
+
+
+def is_large_count(value: Value) -> bool:
+    """Whether a number of things is whole, or so large that nobody writes its fractions.
+
+    An expected number of pixels need not be whole; ``54,000`` of them are no 54.
+    """
+    return is_whole_number(value) or bool(abs(value) >= LEAST_GROUPED)
+
+
 def matches_target(spec: Tolerance, number: ReadNumber, value: Value, target: Value) -> bool:
     """Return whether a value is the target within the tolerance, or rounded as written.
 

@@ -151,12 +151,12 @@ def show_exact_first(spec: ScalarSpec | VectorSpec, lang: str) -> str:
     return f"{exactly} ≈ {rounded}" if exactly != rounded and _FRACTION.search(exactly) else rounded
 
 
-_SHORT = re.compile(r"-?\d{1,3}(/\d{1,2})?")
+_SHORT = re.compile(r"-?\d{1,3}(/[2-9])?")
 _FRACTION = re.compile(r"\d/\d")
 
 
 def _help_as_fractions(spec: ScalarSpec | VectorSpec) -> bool:
-    """Return whether fractions say more than a number of three figures: 200/3, not 1968/325.
+    """Return whether fractions say more than a number of three figures: 200/3, not 353/23.
 
     A value that is read off a plot or estimated is no fraction at all.
     """

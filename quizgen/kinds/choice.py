@@ -11,7 +11,7 @@ import msgspec
 
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import fold_word
-from quizgen.grading.judging.wordings import find_wording, holds_wording
+from quizgen.grading.judging.wordings import find_wording_in, holds_wording, share_words
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, says_otherwise
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, PICTURES, normalise_typed
@@ -97,7 +97,7 @@ _DENIED = re.compile(
 """A word that is denied: what is not true is false, and the other way round."""
 _TRUTH_FIRST = re.compile(
     r"(?P<first>[^\s,;:.(]+)(?!(?<=\d)[.,]\d)"
-    r"(?:[,;:.] ?| (?=\()| ?[-–—] | (?=it |they |this |that |weil |because ))(?P<rest>.+)"
+    r"(?:[,;:.] ?| (?=\()| ?[-–—] | (?=it |it's |that's |they |this |that |weil |because ))(?P<rest>.+)"
 )
 """*Yes* or *false* with a reason behind it; ``0.5`` is neither."""
 _SHORT_DENIAL = re.compile(
@@ -134,6 +134,11 @@ _SET_APART = (
 """One option set against another: ``B, not E``; ``not E but B``."""
 _BRACKETED = re.compile(r"(?P<mark>[A-Za-zক-ঞ]) ?\((?P<words>[^()]{2,})\)")
 _ALL = frozenset({"all", "all of them", "all of these", "alle", "সব", "সবগুলো", "সবগুলি"})
+_ALL_BUT = re.compile(
+    r"(?:all|every(?:thing|one)?|alle|alles)(?: of them)?,? (?:but|except|without|außer|ohne)(?: for)? (?P<out>.+)"
+    r"|(?P<before>.+?) (?:বাদে|ছাড়া|ছাড়া) (?:সব|বাকি সব)(?:গুলো|গুলি)?",
+    re.IGNORECASE,
+)
 _WORDED = re.compile(r"[,;\n]| (?:and|und|&|ও|এবং) ")
 """What stands between several options that are named by their words."""
 _PLACES = ["first", "second", "third", "fourth", "fifth", "sixth"]
@@ -176,12 +181,14 @@ class ChoiceSpec(WordSpec, kw_only=True, frozen=True):
 
     ``multi`` gives credit for right minus wrong crosses when ``negative``, else all or nothing
     wrong crosses take right ones away down to zero. ``tf`` needs no options; 1 is true, 2 false.
+    ``said`` are the options in each further language.
     """
 
     written_as: ClassVar[AnswerForm] = "option"
 
     correct: list[int]
     options: list[str] = msgspec.field(default_factory=list)
+    said: list[list[str]] = msgspec.field(default_factory=list)
     negative: bool = True
     traps: dict[str, int | list[int]] = msgspec.field(default_factory=dict)
 
@@ -200,6 +207,8 @@ class ChoiceSpec(WordSpec, kw_only=True, frozen=True):
         count = len(self.choices())
         if not count or not all(1 <= i <= count for i in self.correct):
             raise ValueError("correct holds positions from 1 within options")
+        if any(len(texts) != count for texts in self.said):
+            raise ValueError("said needs as many wordings as options")
         if self.kind != "multi" and len(self.correct) != 1:
             raise ValueError("exactly one option can be correct")
 
@@ -225,8 +234,9 @@ class ChoiceSpec(WordSpec, kw_only=True, frozen=True):
     def tells(self, _label: str, reason: str, /) -> bool:
         """Return whether a reason has the words of a right option."""
         return any(
-            holds_wording(reason, self.options[one - 1])
-            for one in self.correct[: len(self.options)]
+            holds_wording(reason, texts[one - 1])
+            for texts in (self.options, *self.said)
+            for one in self.correct[: len(texts)]
         )
 
     def show(self) -> str:
@@ -256,8 +266,14 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
         return [whole]
     if spec.kind == "multi" and typed.casefold().strip(_AROUND) in _ALL:
         return list(range(1, len(spec.choices()) + 1))
+    but = _ALL_BUT.fullmatch(typed.strip(_AROUND)) if spec.kind == "multi" else None
+    if but:
+        left_out = _read_positions(spec, but["out"] or but["before"])
+        return [one for one in range(1, len(spec.choices()) + 1) if one not in left_out]
     if {*map(str.casefold, spec.choices())} == {"yes", "no"} and (truth := read_truth(typed)):
         return [spec.choices().index(("yes", "no")[truth - 1]) + 1]
+    if said := _find_option_by_truth(spec, typed):
+        return [said]
     read = (
         _parse_labelled_options(spec, typed)
         or _read_set_apart(spec, typed)
@@ -273,6 +289,23 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
     return (spec.kind == "choice" and len(read) > 1 and _find_worded_options(spec, typed)) or read
 
 
+def _find_option_by_truth(spec: ChoiceSpec, typed: str) -> int:
+    """Return the place of the only option that begins with *Yes* or *No*, as the answer does.
+
+    0 if several do, if the answer says neither, or if the words behind it mean another option.
+    """
+    leading = [read_truth(re.split(r"[,;:. ]", option, maxsplit=1)[0]) for option in spec.choices()]
+    if {*leading} - {0} != {1, 2}:
+        return 0
+    first, _, rest = typed.strip(_AROUND).partition(" ")
+    truth = read_truth(typed) or _find_truth_word(first.strip(",;:."))
+    if not truth or leading.count(truth) != 1 or _ALTERNATIVE.search(typed):
+        return 0
+    place = leading.index(truth) + 1
+    denied = says_otherwise(rest) and not read_truth(typed)
+    return place if _find_wording(spec, typed) in {0, place} and not denied else 0
+
+
 def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:
     """Return the option whose letter ends the answer: ``camera D``, ``each one is smaller: D``.
 
@@ -283,14 +316,14 @@ def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:
         return reasoned
     text = typed.strip(_AROUND)
     place = _PLACE.fullmatch(text)
-    if place is not None and not find_wording(text, spec.choices()):
+    if place is not None and not _find_wording(spec, text):
         number = _PLACES.index(place[1].lower()) + 1
         return [number] if number <= len(spec.choices()) else []
     named = _LETTER_LAST.fullmatch(text)
     if (
         named is None
         or says_otherwise(named["words"])
-        or find_wording(named["words"], spec.choices())
+        or _find_wording(spec, named["words"])
     ):
         return []
     position = LETTERS.find(named["mark"]) + 1
@@ -319,7 +352,7 @@ def _find_reasoned_letter(spec: ChoiceSpec, typed: str) -> list[int]:
     named = {letter for letter in re.findall(r"(?<!\w)[A-Z](?!\w)", reason) if letter in listed}
     if named - {mark} and not (_OTHERS_ARE_WRONG.fullmatch(reason.strip()) and mark not in named):
         return []
-    return [position] if find_wording(reason, spec.choices()) in {0, position} else []
+    return [position] if _find_wording(spec, reason) in {0, position} else []
 
 
 _LETTER_AHEAD = re.compile(
@@ -342,8 +375,26 @@ def _find_worded_options(spec: ChoiceSpec, typed: str) -> list[int]:
     if quoted:
         return quoted
     pieces = _WORDED.split(typed) if spec.kind == "multi" else [typed]
-    found = [find_wording(piece, spec.choices()) for piece in pieces if piece.strip()]
+    found = [_find_wording(spec, piece) for piece in pieces if piece.strip()]
     return list(dict.fromkeys(found)) if all(found) else []
+
+
+def _find_wording(spec: ChoiceSpec, words: str) -> int:
+    """Return the place (from 1) of the option meant by some of its words, in any language.
+
+    A remark in brackets behind them may say why, and must not mean another one.
+    """
+    languages = [spec.choices(), *spec.said]
+    remarked = _REMARKED.fullmatch(words.strip(_AROUND_REMARK))
+    found = find_wording_in(words, languages)
+    if found or remarked is None or says_otherwise(remarked["remark"]):
+        return found
+    found = find_wording_in(remarked["words"], languages)
+    return found if find_wording_in(remarked["remark"], languages) in {0, found} else 0
+
+
+_REMARKED = re.compile(r"(?P<words>[^()]{3,}?) ?\((?P<remark>[^()]+)\)")
+_AROUND_REMARK = " .!।"
 
 
 def _find_quoted_options(spec: ChoiceSpec, typed: str) -> list[int]:
@@ -460,7 +511,11 @@ def _find_truth_word(text: str) -> int:
     first, comma, second = word.partition(", ")
     if comma:
         return _find_truth_word(first) if _find_truth_word(first) == _find_truth_word(second) else 0
-    return 1 if word in _TRUE else 2 if word in _FALSE else 0
+    if word in _TRUE | _FALSE:
+        return 1 if word in _TRUE else 2
+    first, blank, second = word.partition(" ")
+    told = _find_truth_word(first) if blank else 0
+    return told if told and told == _find_truth_word(second) else 0
 
 
 def _parse_labelled_options(spec: ChoiceSpec, typed: str) -> list[int]:
@@ -494,7 +549,12 @@ def _parse_labelled_option(spec: ChoiceSpec, piece: str) -> int:
     mark = match["mark"].translate(BANGLA_LETTERS)
     position = int(mark) if mark.isdecimal() else LETTERS.find(mark.upper()) + 1
     meant = _find_meant_options(spec, match["words"], foreign=bool(_SET_OFF.search(text)))
-    if not 1 <= position <= len(spec.choices()) or not meant:
+    if not 1 <= position <= len(spec.choices()):
+        return 0
+    if not meant and mark.isupper() and not says_otherwise(match["words"]):
+        shared = share_words(match["words"], [texts[position - 1] for texts in (spec.choices(), *spec.said)])
+        return position if shared else 0
+    if not meant:
         return 0
     if position not in meant and text.startswith("a ") and len(meant) == 1:
         return meant[0]  # the article of "a smaller spot", and no letter
@@ -510,26 +570,34 @@ def _find_meant_options(spec: ChoiceSpec, words: str, *, foreign: bool) -> list[
     wordings of a key are in one language.
     """
     folded = fold_word(words)
+    for texts in (spec.choices(), *spec.said):
+        options = [fold_word(option) for option in texts]
+        same = [place for place, option in enumerate(options, 1) if option == folded]
+        if same:
+            return same
     options = [fold_word(option) for option in spec.choices()]
-    same = [place for place, option in enumerate(options, 1) if option == folded]
-    if same:
-        return same
-    if foreign and _BENGALI.search(words) and not any(map(_BENGALI.search, options)):
+    bangla = any(_BENGALI.search(text) for texts in (options, *spec.said) for text in texts)
+    if foreign and _BENGALI.search(words) and not bangla:
         return list(range(1, len(options) + 1))
     parts = [
         place
         for place, option in enumerate(options, 1)
         if len(folded) >= _SHORTEST <= len(option) and (folded in option or option in folded)
     ]
-    meant = 0 if parts else find_wording(words, spec.choices())
+    meant = 0 if parts else _find_wording(spec, words)
     return [meant] if meant else parts
 
 
 def _find_option_by_text(spec: ChoiceSpec, typed: str) -> int:
     """Return the position of the one option with these words; 0 if there is none or several."""
     folded = fold_word(typed)
-    hits = [i + 1 for i, option in enumerate(spec.choices()) if fold_word(option) == folded]
-    return hits[0] if len(hits) == 1 else 0
+    hits = {
+        place
+        for texts in (spec.choices(), *spec.said)
+        for place, option in enumerate(texts, 1)
+        if fold_word(option) == folded
+    }
+    return hits.pop() if len(hits) == 1 else 0
 
 
 def _read_positions(spec: ChoiceSpec, typed: str) -> list[int]:
@@ -696,11 +764,12 @@ def option_order(part: PartContext) -> tuple[list[str], list[str]]:
 def ask_options(part: PartContext, control: InputControl) -> AskedPart[ChoiceSpec]:
     """Return the options in a drawn order, with those that are right in this variant."""
     order, right = option_order(part)
-    wordings, options = part.option_texts(order), assign_letters(order)
+    (wordings, *said), options = part.option_texts(order), assign_letters(order)
+    others = {"said": said} if said else {}
     correct = [order.index(name) + 1 for name in right]
     why = part.reasons(options)
     return AskedPart(
-        make_spec(ChoiceSpec, part, options=wordings, correct=correct, why=why),
+        make_spec(ChoiceSpec, part, options=wordings, correct=correct, why=why, **others),
         control,
         options=options,
         reasons=part.with_reason(options),

@@ -477,8 +477,8 @@ class PartContext(Protocol):
         ``names`` leads from each to its quantity in the chain.
         """
 
-    def option_texts(self, names: Iterable[str]) -> list[str]:
-        """Return the wording of options in the first language, as it would be typed."""
+    def option_texts(self, names: Iterable[str]) -> list[list[str]]:
+        """Return the wording of options as they would be typed, in each language once."""
 
     def condition_holds(self, condition: Condition) -> bool:
         """Return whether an authored condition holds in this variant."""

@@ -41,6 +41,7 @@ from quizgen.kinds.work import count_once
 from quizgen.locale import translate
 from quizgen.maths.constants import parse_exact
 from quizgen.maths.notation import FormulaReadError, format_tree, pretty
+from quizgen.maths.numbers import format_for_key
 from quizgen.maths.tidy import tidy_formula
 from quizgen.maths.tree import Expr, Num, names_in, substitute
 from quizgen.maths.values import Value
@@ -251,9 +252,12 @@ def _short(value: Value) -> str:
 
 
 def ask(part: PartContext) -> AskedPart[ExpressionSpec]:
-    """Return the formula as it is written."""
+    """Return the formula as it is written, or of the solver, with the drawn numbers in place."""
     traps = part.answer.get("traps", {})
     given: dict[str, object] = {}
+    if value := part.answer.get("value"):
+        traps = {name: _put_numbers_in(part, text) for name, text in traps.items()}
+        given = {"value": _put_numbers_in(part, value), "traps": traps}
     if part.answer.get("of"):
         forms = {"": part.answer_form(), **part.misconception_forms()}
         value, *_ = written = [format_tree(form) for form in forms.values()]
@@ -264,6 +268,20 @@ def ask(part: PartContext) -> AskedPart[ExpressionSpec]:
     notes = part.misconception_notes(traps) if traps else {}
     spec = make_spec(ExpressionSpec, part, notes=notes, **given)
     return AskedPart(spec, mistakes=misconception_specs(spec, "value"))
+
+
+def _put_numbers_in(part: PartContext, text: str) -> str:
+    """Return a formula with numbers for drawn names that are none of its symbols."""
+    symbols = part.answer["symbols"]
+    known = {
+        name: Num(Fraction(format_for_key(value)))
+        for name, value in part.shown.items()
+        if name not in symbols
+    }
+    tree = parse_authored(text, (*symbols, *known))
+    if not names_in(tree) & known.keys():
+        return text
+    return format_tree(tidy_formula(substitute(tree, known)))
 
 
 def explain_key(spec: ExpressionSpec, _lang: str) -> TextOrInlines:

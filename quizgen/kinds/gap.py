@@ -21,8 +21,9 @@ from quizgen.grading.judging.spelling import (
     is_another_word,
     nearest_terms,
 )
+from quizgen.grading.judging.wordings import load_translations
 from quizgen.grading.options import GradingOptions
-from quizgen.grading.reading.answer_reader import AnswerForm
+from quizgen.grading.reading.answer_reader import AnswerForm, says_otherwise
 from quizgen.grading.reading.normalise import ANSWER, PICTURES, apply_rewrite, refuse_invisible
 from quizgen.grading.reading.number_words import list_number_words
 from quizgen.grading.reading.source_map import SourceText
@@ -294,19 +295,11 @@ def _judge_gap(spec: GapSpec, gap: list[str], word: str) -> Verdict:
     if folded in right or _fold_spelt_out(word) in right or _is_inflection(word, right):
         return correct(safe_echo(" ".join(word.split())))
     others = [o for g in spec.gaps() for o in g if fold_word(o) not in right] + spec.among
+    if _is_in_company(word, gap, others):
+        return correct(safe_echo(" ".join(word.split())))
     if folded in map(fold_word, others):
         return wrong(safe_echo(word), "other-term")
     return _judge_by_nearest_term(spec, word, gap, others)
-
-
-@cache
-def _load_translations() -> dict[str, tuple[str, ...]]:
-    """Return common words of other languages, folded, with what they say in English."""
-    return {
-        fold_word(word): tuple(said)
-        for lang in list_languages()
-        for word, said in load_words(lang, "answers").get("said", {}).items()
-    }
 
 
 def _translate_word(word: str, terms: list[str]) -> str:
@@ -318,8 +311,8 @@ def _translate_word(word: str, terms: list[str]) -> str:
     pieces = [piece for piece in _LISTED.split(word) if piece]
     if fold_word(word) in known or len(pieces) > MOST_PIECES:
         return word
-    whole = _load_translations().get(fold_word(word), ())
-    said = [_load_translations().get(fold_word(piece), (piece,))[0] for piece in pieces]
+    whole = load_translations().get(fold_word(word), ())
+    said = [load_translations().get(fold_word(piece), (piece,))[0] for piece in pieces]
     found = (known.get(fold_word(one)) for one in (*whole, " ".join(said)))
     return next(filter(None, found), word)
 
@@ -373,6 +366,34 @@ def _drop_idle_words(word: str, terms: list[str]) -> str:
     kept = [one for one in words if one.casefold().strip(".,") not in _load_idle_words()]
     term = " ".join(kept)
     return term if len(kept) < len(words) and fold_word(term) in map(fold_word, terms) else word
+
+
+def _is_in_company(word: str, gap: Sequence[str], others: Sequence[str]) -> bool:
+    """Return whether a right term stands among words that neither change nor contradict it.
+
+    A term of one word goes before a noun, ``high price``, or before a remark in brackets; one of
+    several may stand anywhere: ``all rows at the same time``.
+    """
+    words = [fold_word(piece) for piece in re.split(r"[\s,;]+", word) if fold_word(piece)]
+    if len(words) < len(("term", "noun")) or not word[:1].isalpha():
+        return False
+    wrong = {fold_word(term) for term in others}
+    for term in gap:
+        wanted = [fold_word(piece) for piece in term.split()]
+        places = [
+            i for i in range(len(words)) if words[i : i + len(wanted)] == wanted
+        ]
+        rest = [*words[: places[0]], *words[places[0] + len(wanted) :]] if places else []
+        alone = len(wanted) == 1 and (places != [0] or len(rest) > 1)
+        known = wrong & {*rest, "".join(rest)}
+        few = rest and not alone and not known and len(rest) <= MOST_COMPANY
+        if few and not says_otherwise(" ".join(one for one in rest if one != "power")):
+            return True
+    return False
+
+
+MOST_COMPANY = 3
+"""Words beside a term that are no sentence yet."""
 
 
 def _judge_by_nearest_term(spec: GapSpec, word: str, gap: list[str], others: list[str]) -> Verdict:
@@ -491,7 +512,10 @@ MOST_SYNONYMS = 3
 
 def input_hints(spec: GapSpec, lang: str) -> tuple[str, ...]:
     """Return how to fill in several gaps: with numbers where no gap takes another word."""
-    numbers = all(gap[0].isdecimal() for gap in spec.gaps())
+    gaps = spec.gaps()
+    if len(gaps) == 1:
+        return (translate(lang, "ask.gap_one"),)
+    numbers = all(gap[0].isdecimal() for gap in gaps)
     return (translate(lang, "ask.gap_numbers" if numbers else "ask.gap"),)
 
 

@@ -11,7 +11,7 @@ import msgspec
 
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import fold_word
-from quizgen.grading.judging.wordings import find_wording, holds_wording
+from quizgen.grading.judging.wordings import find_wording_in, holds_wording
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, is_denied
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, LONE_LETTER, PICTURES, normalise_typed
@@ -35,6 +35,13 @@ _SEPARATORS = re.compile(r"[\s,;.|&\[\]{}।॥]+")
 _ARROWS = re.compile(r"\s*(?:->|=>|<->|--|[-:=>()→↔⇒⇔⟶⟷↦])+\s*|(?<=\w)[/_](?=\w)")
 _COMMAS = re.compile(r"[;,\n](?![^(]*\))\s*")
 """What stands between sides in order, outside brackets."""
+_LEFT_OVER = re.compile(
+    r"(?<=\d)[ ,;.]*\(?(?:\d+(?:(?:,| and| und) \d+)*) "
+    r"(?:(?:is|are|ist|sind|stays|stay|bleibt|bleiben) (?:left over|left|over|unused|not used|spare|extra|übrig|nothing|none)"
+    r"|unused|left over|übrig|fits nothing|fits nowhere)\)?\.?$",
+    re.IGNORECASE,
+)
+"""Right sides that are said to belong to nothing, behind the pairs."""
 _GROUPS = (
     r"[;\n]",
     r"[,;\n](?![^(]*\))\s*(?=[A-Z]\b)",
@@ -72,7 +79,8 @@ class AuthoredMatch(AuthoredPooled, kw_only=True, tag="match", frozen=True):
 class MatchSpec(WordSpec, kw_only=True, frozen=True):
     """Match: ``pairs`` = {left label: right label}; ``reuse`` allows a right label twice.
 
-    ``words`` are the wordings of both sides by their labels, which may be typed in their place.
+    ``words`` are the wordings of both sides by their labels, which may be typed in their place;
+    ``said`` are those of each further language.
     """
 
     written_as: ClassVar[AnswerForm] = "option"
@@ -80,6 +88,7 @@ class MatchSpec(WordSpec, kw_only=True, frozen=True):
     pairs: dict[str, str]
     reuse: bool = False
     words: dict[str, str] = msgspec.field(default_factory=dict)
+    said: list[dict[str, str]] = msgspec.field(default_factory=list)
     traps: dict[str, dict[str, str]] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
@@ -135,7 +144,8 @@ class MatchSpec(WordSpec, kw_only=True, frozen=True):
     def tells(self, label: str, reason: str, /) -> bool:
         """Return whether the reason for a left side has the words of its right one."""
         left = next((one for one in self.pairs if label.startswith(one)), "")
-        return holds_wording(reason, self.words.get(self.pairs.get(left, ""), ""))
+        right = self.pairs.get(left, "")
+        return any(holds_wording(reason, one.get(right, "")) for one in (self.words, *self.said))
 
     def show(self) -> str:
         """Return the pairs as they can be typed."""
@@ -163,7 +173,8 @@ def _read_pairs(spec: MatchSpec, typed: str) -> dict[str, str]:
     FormulaReadError
         If no pairs can be read, or a label is used twice.
     """
-    source = normalise_typed(re.sub(r"[\r\n]+", " ", typed.strip()), keep_x=True, longest=1000)
+    typed = _LEFT_OVER.sub("", typed.strip())
+    source = normalise_typed(re.sub(r"[\r\n]+", " ", typed), keep_x=True, longest=1000)
     text = PICTURES.sub(" ", source.text)
     text = LONE_LETTER.sub(lambda letter: letter[0].translate(BANGLA_LETTERS), text)
     left = {fold_word(label): label for label in spec.pairs}
@@ -257,8 +268,8 @@ def _list_targets(spec: MatchSpec) -> list[str]:
 
 def _find_side(spec: MatchSpec, words: str, labels: Sequence[str]) -> str:
     """Return the label whose wording is meant; empty if none or several may be."""
-    wordings = [spec.words.get(label, "") for label in labels]
-    place = find_wording(words, wordings, all_named=True)
+    wordings = [[said.get(label, "") for label in labels] for said in (spec.words, *spec.said)]
+    place = find_wording_in(words, wordings, all_named=True)
     return labels[place - 1] if place else ""
 
 
@@ -327,10 +338,14 @@ def ask(part: PartContext) -> AskedPart[MatchSpec]:
         *((f"{mark}{places[n]}", f"{name} = {n}") for mark, name in left for n in right),
     ]
     matched = {mark: places[pairs[name]] for mark, name in left}
-    told = dict(zip(matched, part.option_texts([name for _, name in left]), strict=True))
-    told |= dict(zip(places.values(), part.option_texts(right), strict=True))
+    labels = [*matched, *places.values()]
+    told, *said = (
+        dict(zip(labels, texts, strict=True))
+        for texts in part.option_texts([*(name for _, name in left), *right])
+    )
+    others = {"said": said} if said else {}
     return AskedPart(
-        make_spec(MatchSpec, part, pairs=matched, words=told, why=part.reasons(named)),
+        make_spec(MatchSpec, part, pairs=matched, words=told, why=part.reasons(named), **others),
         InputControl("pairs"),
         options=left,
         targets=tuple((places[n], n) for n in right),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from fractions import Fraction
 from typing import TYPE_CHECKING, ClassVar
 
@@ -10,7 +9,7 @@ import msgspec
 
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm
-from quizgen.grading.reading.normalise import apply_rewrite
+from quizgen.grading.reading.matrices import split_matrix
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, correct, verdict_by_share, wrong
 from quizgen.kinds.asking import hint, make_spec, misconception_specs
@@ -32,7 +31,6 @@ from quizgen.kinds.forms import (
     typeset_key,
 )
 from quizgen.maths.constants import parse_exact
-from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.tree import Call, Expr
 from quizgen.maths.values import Value
 
@@ -41,17 +39,6 @@ if TYPE_CHECKING:
 
 Entries = list[list[str]]
 """Rows of numbers, each a constant formula."""
-LONGEST = 2000
-"""Characters of a typed matrix."""
-_LATEX = re.compile(r"\\(?:begin|end) ?\{[a-zA-Z]*matrix\}|\\left[(\[]|\\right[)\]]|\\[()]|\$")
-_ARRAY = re.compile(r"^(?:\w+\.)?(?:array|[mM]atrix)\((\[.*\])\)$", re.DOTALL)
-"""A matrix as NumPy and SymPy print it."""
-_ROWS = re.compile(r"\]\s*[,;]?\s*\[|\\\\|[;\n]")
-_NESTED = re.compile(
-    r"[({\[]?\s*(?:\([^()]*\)\s*,?\s*){2,}[)}\]]?|\{\s*(?:\{[^{}]*\}\s*,?\s*)+\}|(?:\|[^|]+\|\s*){2,}",
-)
-"""Rows in round or curly brackets, or between bars."""
-_ENTRIES = re.compile(r"\s*&\s*|,\s+|\t+")
 
 
 class AuthoredMatrix(AuthoredAnswer, kw_only=True, tag="matrix", frozen=True):
@@ -105,52 +92,10 @@ def _read_matrix(typed: str, decimal: str) -> tuple[list[list[Value]], str]:
     FormulaReadError
         If rows differ in length, or an entry is no number.
     """
-    if len(typed) > LONGEST:
-        raise FormulaReadError("too-long", 1, str(LONGEST))
-    text = apply_rewrite("about", _LATEX.sub("", drop_name(typed)).strip()).rstrip(".")
-    text = _ARRAY.sub(r"\1", text)
-    text = _NESTED.sub(_square_rows, text)
-    while text[:1] in {"[", "("} and text[-1:] in {"]", ")"}:
-        text = text[1:-1].strip()
-    rows = [
-        [read_entry(piece, decimal) for piece in _split_row(row, decimal)]
-        for row in map(_strip_row, _ROWS.split(text))
-        if row
-    ]
-    if not rows or len({len(row) for row in rows}) != 1:
-        raise FormulaReadError("matrix-expected", 1, typed.strip()[:60])
+    pieces = split_matrix(drop_name(typed), decimal)
+    rows = [[read_entry(piece, decimal) for piece in row] for row in pieces]
     echo = "; ".join(", ".join(number.read_as for number in row) for row in rows)
     return [[number.value for number in row] for row in rows], f"[{echo}]"
-
-
-def _square_rows(match: re.Match[str]) -> str:
-    """Return rows in brackets of any sort as rows in square ones: ``{{6, -9}, {8, 8}}``."""
-    return match[0].translate(str.maketrans("({|)}", "[[[]]"))
-
-
-def _strip_row(row: str) -> str:
-    """Return a row without its own brackets, of which one may have gone with the rows around it.
-
-    Brackets of an entry stay: ``0, sqrt(2)``.
-    """
-    row = row.strip(" [],")
-    opened = row.count("(") - row.count(")")
-    if opened > 0:
-        row = row.removeprefix("(")
-    elif opened < 0:
-        row = row.removesuffix(")")
-    elif row[:1] == "(" and row[-1:] == ")" and "(" not in row[1:]:
-        row = row[1:-1]
-    return row.strip(" ,")
-
-
-def _split_row(row: str, decimal: str) -> list[str]:
-    """Cut a row at ``&``, at commas before a blank, else at blanks and separating commas."""
-    if _ENTRIES.search(row):
-        return _ENTRIES.split(row)
-    if "," in row and (decimal != "comma" or " " not in row):
-        return row.split(",")
-    return row.split()
 
 
 def _is_same(rows: list[list[Value]], entries: Entries) -> bool:

@@ -38,7 +38,7 @@ from quizgen.grading.reading.quantities import TypedQuantity
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.reading.units import TypedUnit, listed_unit
 from quizgen.grading.rounding import format_key
-from quizgen.grading.spec import ScalarSpec, is_whole_number
+from quizgen.grading.spec import ScalarSpec, is_large_count
 from quizgen.grading.verdict import Verdict, attach_values, unreadable, wrong
 from quizgen.kinds import quantity
 from quizgen.kinds.asking import (
@@ -93,7 +93,7 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
     @property
     def is_whole(self) -> bool:
         """Whether a whole number of things is counted."""
-        return bool(self.counts) and is_whole_number(parse_exact(self.value))
+        return bool(self.counts) and is_large_count(parse_exact(self.value))
 
     def value_unit(self) -> str:
         """Return the unit printed next to the field; a percentage stands for a plain fraction."""
@@ -120,7 +120,11 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
             if not factor:
                 raise
             sides = _read(self, SourceText.of(factor), options)
-        return best_verdict(_judge_side(self, side, source, options) for side in sides)
+        verdict = best_verdict(_judge_side(self, side, source, options) for side in sides)
+        if verdict.credit or not {*self.counts} & MILLIONS or not _MILLION.search(typed):
+            return verdict
+        said = self.judge(_MILLION.sub("", typed), options)  # 50 million for 50 Mpx
+        return said if said.credit else verdict
 
     @property
     def printed_unit(self) -> str:
@@ -206,6 +210,8 @@ def _judge_as(
     return attach_values(verdict, value / scale)
 
 
+MILLIONS = frozenset({"Mpx", "MB", "Mbit"})
+_MILLION = re.compile(r"(?<=\d) ?(?:millions?|millionen|mio\.?|মিলিয়ন)(?!\w)", re.IGNORECASE)
 _TIMES = re.compile(r" ?-? ?(?<![^\W\d_])(?:times|fold|fach|mal|[xX*]|গুণ|বার|টি|টা)$", re.IGNORECASE)
 _PER_HUNDRED = re.compile(r"^শতকরা (.+)$")
 _REMARK = re.compile(r"(-?\d[\d.,/]*) \((?:[=≈] ?)?([^()]*\d[^()]*)\)")

@@ -11,7 +11,7 @@ import msgspec
 
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import fold_word
-from quizgen.grading.judging.wordings import find_wording, holds_wording
+from quizgen.grading.judging.wordings import find_wording_in, holds_wording
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, is_denied
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, apply_rewrite, normalise_typed
@@ -33,11 +33,18 @@ from quizgen.locale import translate
 from quizgen.maths.notation import FormulaReadError
 
 MOST_STEPS = 40
+_LETTERED = r"[A-Za-z](?:(?:,| and| or| und)? [A-Za-z])*"
 _LEFT_OUT = re.compile(
-    r"(?P<kept>.+?)[,;]? ?\(?"
+    r"(?P<kept>.+)(?:[,;:.] ?| ?\(| (?=without |leav|ohne |বাদ |not |but |and not |no |nicht |except ))"
     r"(?:(?:without|leave out|leaving out|leaves out|ohne|বাদ) (?P<out>[^()]+)"
-    r"|(?P<wrong>[A-Za-z](?:(?:,| and| und)? [A-Za-z])*) (?:is|are|ist|sind)"
-    r" (?:wrong|false|out|falsch))\)?",
+    rf"|(?:(?:and |but |und )?(?:not|no|nicht)|except|außer) (?P<denied>{_LETTERED})"
+    rf"|(?P<wrong>{_LETTERED}) (?:(?:is |are |ist |sind |was )?"
+    r"(?:wrong|false|out|falsch|left out|not|nicht|missing|বাদ)|(?:does|do)(?: not|n't) (?:belong|fit)"
+    r"|gehör(?:t|en) nicht dazu|entfällt|fällt weg)(?:,? (?:because|since|weil) [^()]+)?)[).]*",
+    re.IGNORECASE,
+)
+_LEFT_OUT_FIRST = re.compile(
+    r"(?:leave out|leaving out|without|ohne|not|skip) (?P<out>[A-Za-z])\s*[:,;–-]\s*(?P<kept>.+)",
     re.IGNORECASE,
 )
 """Steps, and others that are said not to belong to them."""
@@ -62,6 +69,11 @@ _LINE = re.compile(
     r"(?<![^\s,;(])\(?(\d{1,2})(?: ?[.):]+ ?| ?[=-] ?(?=[^\W\d])| (?=[^\W\d]))"
     r"([^\s,;.:()\d]+|\d{1,2}(?![.):]))(?![^\s,;.])"
 )
+_PLACED = (
+    (re.compile(r"(?<!\w)(\d{1,2})[=:-]?([A-Z])(?!\w)"), 1, 2),
+    (re.compile(r"(?<!\w)([A-Z]) ?[=:-]? ?(\d{1,2})(?!\w)"), 2, 1),
+)
+"""Letters with their places, ``1D 2F`` and ``D=1, F=2``."""
 _TIED = re.compile(
     r"[^\W\d_] ?= ?[^\W\d_]|[^/]*\w ?/ ?\w ?[\s,;>→-]+\w|^[^/]*\w[\s,;>→-]+\w ?/ ?\w"
 )
@@ -106,7 +118,8 @@ class OrderSpec(WordSpec, kw_only=True, frozen=True):
     """Order: ``steps``; ``before`` = [[a, b], ...]; ``distractors`` that must stay out.
 
     ``together`` are groups of steps between which no other one may stand. Without ``before`` the
-    listed order is the only one. Steps are typed by their labels, or by their ``words``.
+    listed order is the only one. Steps are typed by their labels, or by their ``words``, which ``said`` has
+    in each further language.
     """
 
     written_as: ClassVar[AnswerForm] = "option"
@@ -116,6 +129,7 @@ class OrderSpec(WordSpec, kw_only=True, frozen=True):
     together: list[list[str]] = msgspec.field(default_factory=list)
     distractors: list[str] = msgspec.field(default_factory=list)
     words: dict[str, str] = msgspec.field(default_factory=dict)
+    said: list[dict[str, str]] = msgspec.field(default_factory=list)
     traps: dict[str, list[str]] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
@@ -193,7 +207,11 @@ class OrderSpec(WordSpec, kw_only=True, frozen=True):
 
     def tells(self, _label: str, reason: str, /) -> bool:
         """Return whether a reason has the words of a step: it says where that belongs."""
-        return any(holds_wording(reason, words) for words in self.words.values())
+        return any(
+            holds_wording(reason, words)
+            for said in (self.words, *self.said)
+            for words in said.values()
+        )
 
     def show(self) -> str:
         """Return one right order."""
@@ -299,7 +317,7 @@ def _read_worded_steps(spec: OrderSpec, typed: str) -> list[str]:
     What is said to be left out is, if nothing of it stands among the rest.
     """
     text = apply_rewrite("digits", typed.strip())
-    kept = _LEFT_OUT.fullmatch(text)
+    kept = _LEFT_OUT_FIRST.fullmatch(text) or _LEFT_OUT.fullmatch(text)
     if kept is not None:
         label = (
             re.compile(rf"\b[{''.join(spec.steps)}]\b")
@@ -310,12 +328,12 @@ def _read_worded_steps(spec: OrderSpec, typed: str) -> list[str]:
             chosen = _read_labels(spec, kept["kept"])
         except FormulaReadError:
             return []
-        out = kept["out"] or kept["wrong"]
+        out = next(one for name, one in kept.groupdict().items() if one and name != "kept")
         return [] if label is None or label.search(out) else chosen
     if is_denied(text) or _TIED.search(text):
         return []
     labels = [*spec.steps, *spec.distractors]
-    wordings = [spec.words.get(label, "") for label in labels]
+    wordings = [[said.get(label, "") for label in labels] for said in (spec.words, *spec.said)]
     for between in _BETWEEN_STEPS:
         pieces = [_STEP_NUMBER.sub("", piece.strip()) for piece in between.split(text)]
         pieces = [piece for piece in pieces if piece]
@@ -330,13 +348,13 @@ def _is_letter(label: str) -> bool:
     return len(label) == 1 and label.isalpha()
 
 
-def _find_worded_step(piece: str, labels: list[str], wordings: list[str]) -> int:
+def _find_worded_step(piece: str, labels: list[str], wordings: list[list[str]]) -> int:
     """Return the place (from 1) of a step by its words, or by its label before them; 0 if none."""
-    words = find_wording(piece, wordings, all_named=True)
+    words = find_wording_in(piece, wordings, all_named=True)
     named = _STEP_LABEL.fullmatch(piece)
     if named is None or named[1] not in labels:
         return words
-    meant = find_wording(named[2], wordings, all_named=True)
+    meant = find_wording_in(named[2], wordings, all_named=True)
     return labels.index(named[1]) + 1 if meant in {0, labels.index(named[1]) + 1} else 0
 
 
@@ -345,6 +363,10 @@ def _parse_numbered_lines(text: str) -> list[str]:
 
     None are returned unless the lines are numbered from 1 without a gap.
     """
+    for shape, first, second in _PLACED:
+        found = {one[first]: one[second] for one in shape.finditer(text)}
+        if not shape.sub("", text).strip(" ,;.") and {*map(int, found)} == {*range(1, len(found) + 1)}:
+            return [found[place] for place in sorted(found, key=int)] if len(found) > 1 else []
     pairs = dict(_LINE.findall(text))
     whole = not _LINE.sub("", text).strip(" ,;.")
     if not whole or len(pairs) < 2 or {*map(int, pairs)} != {*range(1, len(pairs) + 1)}:
@@ -390,6 +412,9 @@ def ask(part: PartContext) -> AskedPart[OrderSpec]:
     marks = {name: mark for mark, name in options}
     _check_traps(part)
     traps = _list_wrong_orders(part.answer.get("traps", {}), steps, marks)
+    told, *said = (
+        dict(zip(marks.values(), texts, strict=True)) for texts in part.option_texts(marks)
+    )
     spec = make_spec(
         OrderSpec,
         part,
@@ -400,7 +425,8 @@ def ask(part: PartContext) -> AskedPart[OrderSpec]:
         before=[(marks[first], marks[second]) for first, second in part.answer.get("before", ())],
         together=[[marks[name] for name in group] for group in part.answer.get("together", ())],
         distractors=[marks[name] for name in extra],
-        words=dict(zip(marks.values(), part.option_texts(marks), strict=True)),
+        words=told,
+        **({"said": said} if said else {}),
     )
     return AskedPart(
         spec,

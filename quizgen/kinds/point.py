@@ -32,7 +32,7 @@ from quizgen.grading.spec import (
     VectorSpec,
     all_match_misconception,
     all_match_target,
-    is_whole_number,
+    is_large_count,
 )
 from quizgen.grading.verdict import (
     Verdict,
@@ -119,7 +119,7 @@ class PointSpec(VectorSpec, kw_only=True, frozen=True):
         twofold = [i for i, (a, b) in enumerate(zip(first, second, strict=True)) if a != b]
         if doubt.native and all(_right(verdict, place) for place in twofold):
             return verdict
-        whole = (self.counts or self.unit in COUNTED) and all(map(is_whole_number, self.keys()))
+        whole = (self.counts or self.unit in COUNTED) and all(map(is_large_count, self.keys()))
         if whole and are_groups_meant(verdict, other):
             return other
         if not (doubt.group_wins or any(_right(other, place) for place in twofold)):

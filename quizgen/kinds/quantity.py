@@ -21,7 +21,7 @@ from quizgen.grading.reading.numbers import ReadNumber
 from quizgen.grading.reading.quantities import TypedQuantity
 from quizgen.grading.reading.units import TypedUnit, listed_unit
 from quizgen.grading.rounding import format_key
-from quizgen.grading.spec import COUNTED, ScalarSpec, is_whole_number
+from quizgen.grading.spec import COUNTED, ScalarSpec, is_large_count
 from quizgen.grading.verdict import HALF, Verdict, attach_values, partial, wrong
 from quizgen.kinds.asking import (
     accept_within_tolerance,
@@ -41,7 +41,7 @@ from quizgen.locale import translate
 from quizgen.maths.constants import parse_exact
 from quizgen.maths.notation import FormulaReadError, pretty
 from quizgen.maths.numbers import SECONDS, format_duration
-from quizgen.maths.units import format_unit
+from quizgen.maths.units import Dimension, format_unit
 from quizgen.maths.values import Value
 
 DEGREES = (("deg", 1),)
@@ -72,7 +72,7 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
     @property
     def is_whole(self) -> bool:
         """Whether a whole number of bytes, bits or pixels is asked."""
-        return self.unit in COUNTED and is_whole_number(parse_exact(self.value))
+        return self.unit in COUNTED and is_large_count(parse_exact(self.value))
 
     def value_unit(self) -> str:
         """Return the unit of the key."""
@@ -126,7 +126,7 @@ def _judge_reading(
     if quantity.unit is None:
         return _judge_without_unit(spec, number, wanted, options)
     read_as = f"{number.read_as} {format_unit(quantity.unit.text)}"
-    if quantity.unit.dimension != wanted.dimension:
+    if _fold_counted(quantity.unit.dimension, wanted.dimension) != wanted.dimension:
         return _reject_unit_clash(spec, number, quantity.unit, read_as)
     value = number.value * quantity.unit.factor / wanted.factor
     verdict = judge_in_unit(spec, number, value, options, read_as)
@@ -145,6 +145,27 @@ def judge_in_unit(
     )
     verdict = judge_value(asked, number, value, read_as)
     return attach_values(verdict, value)
+
+
+def _fold_counted(typed: Dimension, wanted: Dimension) -> Dimension:
+    """Return a dimension with its counted things as they are asked.
+
+    Rows and columns of a picture are pixels where pixels are asked, and line pairs are periods
+    where nothing is counted.
+    """
+    if typed == wanted or not {*_COUNTED_THINGS} & {base for base, _ in typed}:
+        return typed
+    powers = dict(typed)
+    for base, same in _COUNTED_THINGS.items():
+        power = powers.pop(base, 0)
+        if same and power and same in dict(wanted):
+            powers[same] = power
+        elif same and power:
+            powers[base] = power
+    return tuple(sorted(powers.items()))
+
+
+_COUNTED_THINGS = {"row": "px", "column": "px", "lp": ""}
 
 
 def _judge_without_unit(

@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 from itertools import product
 from typing import Any, Literal
 
+from quizgen.bank.markdown import slot_names
 from quizgen.bank.pools import count_pool_variants, matching_pairs, select_from_pool
 from quizgen.bank.rules import total_points
 from quizgen.bank.sampler import sampler_for, solve_candidate
@@ -388,6 +389,9 @@ def _describe_answer(kind: str, drawn: Variant, index: int) -> str:
         pairs = matching_pairs(drawn, index)
         names = [f"{name}={pairs.get(name, '')}" for name in names]
     if kind == "gap":
+        text = drawn.template.texts[drawn.template.languages[0]]
+        if any(any(slot_names(text.sentence("gaps", name) or ())) for name in names):
+            return "+".join(gap[0] for gap in ask_part(drawn, index).spec.gaps())
         names = [drawn.words.get(name, name) for name in names]
         return "+".join(names if len({*shown.names}) == len(names) else sorted(names))
     return "+".join(sorted(names))

@@ -11,10 +11,12 @@ from dataclasses import dataclass, replace
 from functools import singledispatch
 from typing import ClassVar
 
+from msgspec import structs
+
 from quizgen.bank.markdown import Inline, PlainText
 from quizgen.grading.spec import AnySpec, NumericSpec, ScalarSpec
 from quizgen.grading.spec import VectorSpec as SeveralNumbers
-from quizgen.kinds import angle, choice, code, gap, match, number, order, point, table
+from quizgen.kinds import angle, choice, code, gap, match, number, order, point, table, vector
 from quizgen.kinds import quantity as quantities
 from quizgen.kinds.asking import KeyNumbers, rounding_hint
 from quizgen.lms.answer_ranges import AnswerRange, WrongValue, disjoint_ranges
@@ -273,7 +275,7 @@ def _numeric_interaction(
     return (NumericInteraction("", unit, disjoint_ranges(spec, key, wrong, period), precision),)
 
 
-def _find_share(spec: ScalarSpec, mistake: str) -> float:
+def _find_share(spec: NumericSpec, mistake: str) -> float:
     """Return the share of the points that a known mistake still earns."""
     return float(parse_exact(spec.worth.get(mistake, 0)))
 
@@ -318,7 +320,7 @@ def _numeric_interactions(
         if spec.exact and not _has_finite_decimal(key):
             return (solved.as_manual("fraction"),)
         wrong = [
-            WrongValue(parse_exact(values[place]), feedback.get(name, ()))
+            WrongValue(parse_exact(values[place]), feedback.get(name, ()), _find_share(spec, name))
             for name, values in spec.traps.items()
         ]
         name = names[place] if place < len(names) else ""
@@ -330,12 +332,24 @@ def _numeric_interactions(
 
 
 @_interactions_of.register
+def _vector_interactions(spec: vector.ColumnSpec, solved: SolvedPart) -> tuple[Interaction, ...]:
+    """Return a numeric interaction for each component; any multiple is graded manually."""
+    if spec.up_to:
+        return (solved.as_manual("scale"),)
+    numbers = point.PointSpec(
+        kind="point", values=[*spec.components], exact=True, traps={**spec.traps}
+    )
+    return _numeric_interactions(numbers, solved, [])
+
+
+@_interactions_of.register
 def _table_interactions(spec: table.TableSpec, solved: SolvedPart) -> tuple[Interaction, ...]:
     """Return an interaction for each cell; all is graded manually if one cell must be."""
     found: list[Interaction] = []
     for name in spec.values:
         cell = table.cell_spec(spec, name)
-        (one,) = _interactions_of(cell, solved)
+        worth = {mistake: spec.worth[mistake] for mistake in spec.worth if mistake in cell.traps}
+        (one,) = _interactions_of(structs.replace(cell, worth=worth), solved)
         if isinstance(one, ExtendedTextInteraction):
             return (one,)
         found.append(replace(one, name=name) if isinstance(one, NumericInteraction) else one)

@@ -125,14 +125,18 @@ def part_html(
 
     ``alone`` says that no other part stands before it, which may hold the text of its field.
     """
-    label = Markup("<p><strong>({})</strong></p>").format(part.label) if part.label else Markup("")
     options = _options_list(part, lang) if needs_manual_grading(interactions) else Markup("")
     advice = Markup(" ").join(_typing_advice(part, interactions, lang))
     hint = Markup("<p><small>{}</small></p>").format(advice) if advice else Markup("")
     drawing = part.field.drawing
     field = image_tag(drawing.figure if drawing else None, source)
     body = part.body or (part.shared if alone else ())
-    return label + _blocks_html(body, lang) + field + options + hint
+    return part_label_html(part) + _blocks_html(body, lang) + field + options + hint
+
+
+def part_label_html(part: QuestionPart) -> Markup:
+    """Return the letter of a part in a line of its own; empty where there is one part."""
+    return Markup("<p><strong>({})</strong></p>").format(part.label) if part.label else Markup("")
 
 
 def _options_list(part: QuestionPart, lang: str) -> Markup:

@@ -10,7 +10,8 @@ Sources: Moodle documentation, "Moodle XML format" and "Embedded Answers (Cloze)
 from __future__ import annotations
 
 import base64
-from collections.abc import Iterable, Iterator, Sequence
+import re
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache, singledispatch
 from itertools import groupby
@@ -42,6 +43,7 @@ from quizgen.lms.markup import (
     image_name,
     option_html,
     part_html,
+    part_label_html,
     question_images,
     question_mark,
     solution_html,
@@ -53,6 +55,7 @@ from quizgen.lms.markup import (
 )
 from quizgen.lms.weighted_answers import weighted_answers, with_letter
 from quizgen.locale import translate
+from quizgen.question.inlines import PlacedField
 from quizgen.render.layouts import jinja_environment
 
 # Stands in a text until a field takes its place; no text has this character.
@@ -170,17 +173,79 @@ def _single_question(item: ExportItem) -> MoodleQuestion | None:
 
 
 def _cloze_html(question: MoodleQuestion) -> Markup:
-    """Return the parts as cloze text, with a field for each value."""
+    """Return the parts as cloze text, with a field for each value.
+
+    A field of a sentence or a cell stands there if that leaves the fields in the order of the
+    parts, in which responses come back; else it stands below.
+    """
     lang = question.item.lang
     shares = [part.points / _count_fields(found, lang) for part, found in question.parts]
     # Weights of fields are whole numbers.
     scale = lcm(*(share.denominator for share in shares))
-    text = Markup("")
-    for (part, found), share in zip(question.parts, shares, strict=True):
-        text += _escape_braces(part_html(part, found, lang, _file_address))
-        for interaction in found:
-            text += _embed_interaction(interaction, int(share * scale), lang)
+    weights = [int(share * scale) for share in shares]
+    below = [
+        Markup("").join(_embed_interaction(one, weight, lang) for one in found)
+        for (_, found), weight in zip(question.parts, weights, strict=True)
+    ]
+    placed = {
+        place: field
+        for place, ((part, found), weight) in enumerate(zip(question.parts, weights, strict=True))
+        if part.field.near is not None and (field := _embed_in_line(found, weight, lang))
+    }
+    text = _place_marks(question, frozenset(placed))
+    if [int(mark) for mark in _MARK.findall(text)] != [*range(len(below))]:
+        text, placed = _place_marks(question, frozenset()), {}
+    fields = {place: placed.get(place, field) for place, field in enumerate(below)}
+    return Markup(_MARK.sub(lambda mark: fields[int(mark[1])], text))  # noqa: S704 - escaped
+
+
+_MARK = re.compile("\N{NULL}(\\d+)\N{NULL}")
+"""Stands for the fields of a part, by its place, until all of the text is there."""
+
+
+def _place_marks(question: MoodleQuestion, placed: Collection[int]) -> str:
+    """Return the parts with a mark for the fields of each: in its blank, or below its text."""
+    lang, text, said = question.item.lang, "", {""}
+    bodies = [part.body for part, _ in question.parts]
+    for place, (part, found) in enumerate(question.parts):
+        mark, lost = f"\N{NULL}{place}\N{NULL}", part.shared and part.shared not in bodies
+        bodies.append(part.shared)  # the text around fields stands once, also if its part does not
+        own = part_html(part, found, lang, _file_address, alone=bool(lost))
+        if place not in placed:
+            text += _escape_braces(own) + mark
+            continue
+        advice = own.removeprefix(part_label_html(part))
+        text += _escape_braces(own) if part.body or advice not in said else ""
+        said.add(advice)
+        blank = PlacedField(part.label).text
+        text = text.replace(blank, blank.rstrip("_") + mark)
     return text
+
+
+def _embed_in_line(found: Sequence[Interaction], weight: int, lang: str) -> Markup:
+    """Return the fields of a part that stand inside a sentence; empty where there are none."""
+    fields = [_write_line_field(one, weight, lang) for one in found]
+    return Markup("; ").join(fields) if all(fields) else Markup("")
+
+
+def _write_line_field(interaction: Interaction, weight: int, lang: str) -> Markup:
+    """Return a field for a number or words, or a drop-down list; empty for what is none."""
+    match interaction:
+        case NumericInteraction():
+            kind = "NUMERICAL"
+        case TextEntryInteraction():
+            kind = "SHORTANSWER_C" if interaction.printed else "SHORTANSWER"
+        case ChoiceInteraction(many=False):
+            shown = [to_course_html(option.words, lang) for option in interaction.options]
+            kind = "MULTICHOICE_V" if any("<" in one for one in shown) else "MULTICHOICE"
+        case _:
+            return Markup("")
+    rows = []
+    for one in weighted_answers(interaction, lang):
+        typed = f"{one.text}:{one.tolerance}" if kind == "NUMERICAL" else ""
+        typed = typed or _escape_cloze(with_letter(one) if one.letter else one.text)
+        rows.append((typed, one.percent, one.feedback))
+    return _cloze_field(weight, kind, rows)
 
 
 def _escape_braces(text: Markup) -> Markup:
@@ -207,20 +272,15 @@ def _embed_interaction(interaction: Interaction, _weight: int, _lang: str) -> Ma
 @_embed_interaction.register
 def _embed_number(interaction: NumericInteraction, weight: int, lang: str) -> Markup:
     """Return a numeric field between its name and its unit."""
-    answers = weighted_answers(interaction, lang)
-    rows = [(f"{one.text}:{one.tolerance}", one.percent, one.feedback) for one in answers]
     around = _escape_braces(field_html(interaction, _FIELD_MARK, lang))
-    field = _cloze_field(weight, "NUMERICAL", rows)
+    field = _write_line_field(interaction, weight, lang)
     return Markup(around.replace(_FIELD_MARK, field))  # noqa: S704 - escaped
 
 
 @_embed_interaction.register
 def _embed_text(interaction: TextEntryInteraction, weight: int, lang: str) -> Markup:
     """Return a field for words; a program's output is compared with its capitals."""
-    kind = "SHORTANSWER_C" if interaction.printed else "SHORTANSWER"
-    answers = weighted_answers(interaction, lang)
-    rows = [(_escape_cloze(one.text), one.percent, one.feedback) for one in answers]
-    return Markup("<p>{}</p>").format(_cloze_field(weight, kind, rows))
+    return Markup("<p>{}</p>").format(_write_line_field(interaction, weight, lang))
 
 
 @_embed_interaction.register

@@ -12,7 +12,7 @@ from quizgen.maths.surds import (
     split_constant,
     write_multiple,
 )
-from quizgen.maths.tree import Call, Expr, Num
+from quizgen.maths.tree import Call, Expr, Num, Sym
 
 _ZERO, _ONE = Num(Fraction(0)), Num(Fraction(1))
 LARGEST_EXPONENT = 64
@@ -62,8 +62,9 @@ def _tidy_negative(args: tuple[Expr, ...]) -> Expr:
 def _tidy_sum(args: tuple[Expr, ...]) -> Expr:
     """Return a sum with its numbers added up, in the place of the first of them.
 
-    So are multiples of pi and of one root.
+    So are multiples of pi, of one root, and of one power of a name: ``x^2 - 3*x - 2*x``.
     """
+    args = _join_like_terms(args)
     terms: list[Expr] = []
     total, place = Fraction(0), -1
     sums: dict[Expr, Fraction] = {}
@@ -86,6 +87,51 @@ def _tidy_sum(args: tuple[Expr, ...]) -> Expr:
     if not terms:
         return _ZERO
     return _join_terms(terms)
+
+
+def _join_like_terms(terms: tuple[Expr, ...]) -> tuple[Expr, ...]:
+    """Return the terms of a sum, multiples of one product of powers put together if there are any.
+
+    They stand where the first of them stood; without any the sum stays as it was written.
+    """
+    found = [(term, _split_monomial(term)) for term in _iter_signed_terms(terms)]
+    sums = dict[Expr, Fraction]()
+    for _, monomial in found:
+        if monomial:
+            sums[monomial[1]] = sums.get(monomial[1], Fraction(0)) + monomial[0]
+    if len(sums) == sum(monomial is not None for _, monomial in found):
+        return terms
+    joined = list[Expr]()
+    for term, monomial in found:
+        if monomial is None:
+            joined.append(term)
+        elif monomial[1] in sums:
+            joined.append(_tidy_product((_make_number(sums.pop(monomial[1])), monomial[1])))
+    return tuple(joined)
+
+
+def _iter_signed_terms(terms: Iterable[Expr]) -> Iterable[Expr]:
+    """Yield the terms of a sum and of the sums and differences in it, each with its sign."""
+    for term in _flatten("add", terms):
+        if isinstance(term, Call) and term.op == "sub":
+            yield from _iter_signed_terms(term.args[:1])
+            yield from map(negate_formula, _iter_signed_terms(term.args[1:]))
+        else:
+            yield term
+
+
+def _split_monomial(term: Expr) -> tuple[Fraction, Expr] | None:
+    """Return factor and rest of a number times powers of names; None if it is anything else."""
+    minus, size = _split_minus(term)
+    factor = Fraction(-1 if minus else 1)
+    if isinstance(size, Call) and size.op == "div" and isinstance(size.args[1], Num):
+        factor, size = factor / size.args[1].value, size.args[0]
+    if isinstance(size, Call) and size.op == "mul" and isinstance(size.args[0], Num):
+        factor *= size.args[0].value
+        size = size.args[1] if len(size.args) == 2 else Call("mul", size.args[1:])
+    powers = size.args if isinstance(size, Call) and size.op == "mul" else (size,)
+    bases = [one.args[0] if isinstance(one, Call) and one.op == "pow" else one for one in powers]
+    return (factor, size) if all(isinstance(base, Sym) for base in bases) else None
 
 
 def _iter_terms(args: Iterable[Expr]) -> Iterable[Expr]:
@@ -141,8 +187,9 @@ def _tidy_difference(args: tuple[Expr, ...]) -> Expr:
     if isinstance(second, Num) and second.value < 0:
         return _tidy_sum((first, negate_formula(second)))
     minus, value = _split_minus(second)
-    if all(map(_is_constant, args)):
-        return _tidy_sum((first, negate_formula(second)))
+    signed = first, negate_formula(second)
+    if all(map(_is_constant, args)) or _join_like_terms(signed) != signed:
+        return _tidy_sum(signed)
     return _tidy_sum((first, value)) if minus else Call("sub", args)
 
 

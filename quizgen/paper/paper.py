@@ -40,6 +40,7 @@ from quizgen.question.compose import Question, QuestionKey, compose_variant, dra
 from quizgen.question.data_files import iter_data_files
 from quizgen.question.inlines import PlacedPicture
 from quizgen.question.levels import effective_level
+from quizgen.question.mark_scheme import rescale_criteria
 
 ProgressCallback = Callable[[str], None]
 """Told the template of each question as it is done."""
@@ -433,7 +434,7 @@ def _build_paper_item(
     questions = tuple(
         _distribute_points(_drop_repeated_blocks(question, first), points) for question, _ in pairs
     )
-    return PaperItem(number, questions, tuple(key for _, key in pairs))
+    return PaperItem(number, questions, tuple(_rescale_key(key, questions[0]) for _, key in pairs))
 
 
 def _drop_repeated_blocks(question: Question, first: Question) -> Question:
@@ -458,6 +459,15 @@ def _strip_language(block: Block) -> object:
     pieces = block.children if isinstance(block, Paragraph) else ()
     pictures = tuple(piece.picture for piece in pieces if isinstance(piece, PlacedPicture))
     return pictures if len(pictures) == len(pieces) else None
+
+
+def _rescale_key(key: QuestionKey, question: Question) -> QuestionKey:
+    """Return a key whose criteria add up to what the parts are worth on this paper."""
+    solved = tuple(
+        rescale_criteria(part, asked.points)
+        for part, asked in zip(key.solution.parts, question.parts, strict=True)
+    )
+    return replace(key, solution=replace(key.solution, parts=solved))
 
 
 def _distribute_points(question: Question, points: float | None) -> Question:

@@ -30,7 +30,7 @@ def join_fields(control: InputControl, values: Sequence[str], marks: Sequence[st
     join = _JOINED.get(control.form)
     if join is not None:
         return join(filled, marks)
-    if not control.boxes or len(filled) == 1:
+    if len(filled) == 1:
         return filled[0]
     return _BETWEEN.join(before + value for _, before, value in _locate_values(control, filled))
 

@@ -195,7 +195,8 @@ def _render_table(part: markdown.TableBlock, lang: str, way: HtmlDialect) -> str
     head = "".join([_render_head_cell(cell, lang, way) for cell in part.head])
     rows = [[f"<td>{_render_piece(cell, lang, way)}</td>" for cell in cells] for cells in part.rows]
     body = "".join([f"<tr>{''.join(row)}</tr>" for row in rows])
-    table = f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+    head = f"<thead><tr>{head}</tr></thead>" if any(part.head) else ""
+    table = f"<table>{head}<tbody>{body}</tbody></table>"
     return f'<div class="scroll" tabindex="0">{table}</div>' if way.ours else table
 
 

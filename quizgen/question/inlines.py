@@ -78,10 +78,13 @@ class PlacedField(msgspec.Struct, frozen=True):
         Of the part; empty where there is only one.
     options : tuple of (str, inlines)
         What there is to choose from, each after its mark; none where something is typed.
+    elsewhere : bool
+        Whether the field itself stands in the same words of another language: a part has one.
     """
 
     label: str
     options: tuple[tuple[str, tuple[Inline, ...]], ...] = ()
+    elsewhere: bool = False
 
     @property
     def text(self) -> str:
@@ -146,6 +149,14 @@ def assignment_inlines(values: Iterable[tuple[str, str]]) -> tuple[Inline, ...]:
     return join_inlines(
         ((name_inline(name), *to_inlines(f" = {text}")) for name, text in values), "; "
     )
+
+
+def begin_sentence(said: tuple[Inline, ...]) -> tuple[Inline, ...]:
+    """Return a sentence that begins with a capital, but for a single letter, as in ``f-number``."""
+    first, *rest = said
+    if not isinstance(first, PlainText) or not re.match("[a-z]{2}", first.text):
+        return said
+    return (PlainText(first.text[0].upper() + first.text[1:]), *rest)
 
 
 def translate_inlines(lang: str, key: str, **blanks: tuple[Inline, ...]) -> tuple[Inline, ...]:

@@ -432,6 +432,8 @@ def fill_program(text: str, drawn: Variant, known: Values) -> str:
                 return texts[int(place.rstrip("]")) - 1]
         if name in drawn.template.rules.data and name in drawn.words:
             return drawn.words[name]
+        if name in drawn.template.chain.form_by_name:
+            return pretty.format_formula(format_tree(drawn.form(name))).replace(MINUS, "-")
         written = format_exact(known[name], minus="-") if name in known else None
         if written is None:
             what = f"{{{{ {name} }}}} cannot stand in a program"

@@ -11,6 +11,9 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
+from msgspec.structs import replace
+
+from quizgen.core.shares import rescale_points
 from quizgen.question.solution import PartSolution, SolutionStep
 from quizgen.question.worked_steps import FORMULA, NUMBERS, RESULT
 
@@ -96,6 +99,26 @@ def mark_lines(part: PartSolution, points: Fraction, *, has_unit: bool) -> tuple
     """Return what each step of a part earns; arguments as for ``mark_steps``."""
     marked = mark_steps(part, points, has_unit=has_unit)
     return tuple(sum((side.points for side in line), Fraction(0)) for line in marked)
+
+
+def rescale_criteria(part: PartSolution, points: Fraction) -> PartSolution:
+    """Return a part whose criteria have the points that a paper gives it.
+
+    Where the best criteria count, they keep their exact shares: quarters might not reach the whole.
+    """
+    if not part.scheme:
+        return part
+    worth = tuple(row.points for row in part.scheme)
+    if part.most is None:
+        worth = rescale_points(worth, points)
+    else:
+        worth = tuple(one * points / part.most for one in worth)
+    rows = zip(part.scheme, worth, strict=True)
+    return replace(
+        part,
+        scheme=tuple(row._replace(points=one) for row, one in rows),
+        most=None if part.most is None else points,
+    )
 
 
 def _split(points: Fraction, weights: Sequence[Fraction]) -> list[Fraction]:

@@ -41,7 +41,10 @@ from quizgen.question.interpolation import (
     join_unit,
 )
 
-_LAST_WORD = re.compile(r"((?:[a-zäöüß-]{4,}|[\u0980-\u09ff]{3,})) \(?$", re.IGNORECASE)
+_WORD = r"(?:[a-zäöüß-]{3,}|[\u0980-\u09ff]{3,})"
+_LAST_WORDS = re.compile(
+    rf"((?:{_WORD} ){{0,2}}(?:[a-zäöüß-]{{4,}}|[\u0980-\u09ff]{{3,}})) \(?$", re.IGNORECASE
+)
 _UNFILLED = re.compile(r"\{\{[^{}]*\}\}")
 """What stays of a blank with a slip in it."""
 OPTION_FIGURES = 4
@@ -228,19 +231,16 @@ class VariantPart(PartContext):
         return find_bound(said)
 
     def value_words(self, names: Mapping[str, str]) -> dict[str, list[str]]:
-        """Return what the question calls each value, in all languages in which each has a word.
+        """Return what the question calls each value, in every language.
 
-        That is the word before its name (*levels* in "how many levels $n$"), or the phrase that is
-        drawn behind it ("$n_1$: a raw image"). Words that two values share bind neither.
+        That are the words before its name (*largest value* in "what is the largest value $M$"), or
+        the phrase that is drawn behind it ("$n_1$: a raw image"). Words that two values share bind
+        neither.
         """
         found: dict[str, list[str]] = {name: [] for name in names}
         for lang in self.drawn.template.texts:
-            called: dict[str, str] = {}
             for name, words in self._iter_value_words(lang, names):
-                called.setdefault(name, words)
-            if len(called) == len(names) == len({*called.values()}):
-                for name, words in called.items():
-                    found[name].append(words)
+                found[name].append(words)
         return {name: list(dict.fromkeys(words)) for name, words in found.items() if words}
 
     def _iter_value_words(self, lang: str, names: Mapping[str, str]) -> Iterator[tuple[str, str]]:
@@ -256,17 +256,22 @@ class VariantPart(PartContext):
                 continue
             name = by_quantity.get(formula.expr.name, formula.expr.name)
             drawn = isinstance(slot, Slot) and self.words.get(slot.name)
-            if name not in names:
+            if name not in names or _is_listed(after, slot):
                 continue
-            if isinstance(before, PlainText) and (word := _LAST_WORD.search(before.text)):
+            if isinstance(before, PlainText) and (word := _LAST_WORDS.search(before.text)):
                 yield name, word[1].lower()
             elif drawn and isinstance(after, PlainText) and after.text == ": ":
                 yield name, inlines_to_text(Interpolator(self.drawn, lang).sentence("words", drawn))
 
-    def option_texts(self, names: Iterable[str]) -> list[str]:
-        """Return the wording of options in the first language, as it would be typed."""
-        filler = Interpolator(self.drawn, self.drawn.template.languages[0])
-        return [inlines_as_typed(filler.sentence("options", name)) for name in names]
+    def option_texts(self, names: Iterable[str]) -> list[list[str]]:
+        """Return the wordings of options as they would be typed, in each language once."""
+        asked = list(names)
+        fillers = (Interpolator(self.drawn, lang) for lang in self.drawn.template.languages)
+        found = [
+            [inlines_as_typed(filler.sentence("options", name)) for name in asked]
+            for filler in fillers
+        ]
+        return [texts for place, texts in enumerate(found) if texts not in found[:place]]
 
     def condition_holds(self, condition: Condition) -> bool:
         """Return whether an authored condition holds in this variant."""
@@ -302,6 +307,12 @@ class VariantPart(PartContext):
             (self.fill_program(one.answer), parse_written_number(one.points) / worth)
             for one in rule.example
         )
+
+
+def _is_listed(after: object, following: object) -> bool:
+    """Return whether another name follows at once: what stands before is then said of both."""
+    between = after.text.strip(" ,;") if isinstance(after, PlainText) else "?"
+    return isinstance(following, InlineFormula) and between in {"", "and", "ও", "এবং"}
 
 
 @lru_cache(maxsize=128)

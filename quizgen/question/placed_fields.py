@@ -17,11 +17,14 @@ _BETWEEN = ": "
 
 
 def can_be_placed(control: InputControl) -> bool:
-    """Return whether a part is answered by one line of text or one option."""
+    """Return whether a part is answered by one line of text or one option.
+
+    Values without names, such as those of a point, go into one line: ``(3; 4)``.
+    """
     if control.form in {"one", "truth"}:
         return True
     text = control.form in {"line", "lines", "gaps"}
-    return text and not control.boxes and control.board is None
+    return text and not (control.boxes and control.named) and control.board is None
 
 
 def iter_placed_fields(blocks: Iterable[Block]) -> Iterator[tuple[str, str]]:

@@ -96,13 +96,20 @@ class SolvedMisconception(msgspec.Struct, frozen=True):
     """A misconception: its name, what went wrong, and the answer it would give.
 
     Of one that is drawn no answer is shown: its points would tell nobody what it looks like.
-    ``share`` of the points is what it earns all the same.
+    ``share`` of the points is what it earns all the same. ``own`` is what the sentence says besides
+    the reason of the right answer; empty if that is all of it.
     """
 
     name: str
     sentence: tuple[Inline, ...]
     shown: tuple[Inline, ...]
     share: Fraction = Fraction(0)
+    own: tuple[Inline, ...] = ()
+
+    @property
+    def said(self) -> tuple[Inline, ...]:
+        """Return the sentence for a list below the right answer: nothing is said twice there."""
+        return self.own or self.sentence
 
     @property
     def value(self) -> str:
@@ -361,10 +368,41 @@ def _iter_wrong_options(
 ) -> Iterator[SolvedMisconception]:
     """Yield wrong options, pairs and steps with the reason."""
     right = {name for _, name in built.right}
+    reasons = {name: filler.sentence("reasons", name) for _, name in built.reasons}
+    known = [one for name in reasons if name in right for one in _split_sentences(reasons[name])]
     for mark, name in built.reasons:
         if name not in right:
             shown = next(iter(_list_examples(filler, "refuse", name)), mark)
-            yield SolvedMisconception(name, filler.sentence("reasons", name), (PlainText(shown),))
+            own = _drop_known_end(reasons[name], known)
+            yield SolvedMisconception(name, reasons[name], (PlainText(shown),), own=own)
+
+
+_SENTENCE_END = re.compile(r"(?<=[.!?।]) ")
+
+
+def _split_sentences(told: tuple[Inline, ...]) -> list[list[Inline]]:
+    """Return the sentences of a passage, without the blanks between them."""
+    found: list[list[Inline]] = [[]]
+    for is_text, run in groupby(told, key=lambda one: isinstance(one, PlainText)):
+        if not is_text:
+            found[-1] += run
+            continue
+        first, *others = _SENTENCE_END.split(inlines_to_text(tuple(run)))
+        found[-1] += [PlainText(first)] if first else []
+        found += [[PlainText(other)] if other else [] for other in others]
+    return found
+
+
+def _drop_known_end(told: tuple[Inline, ...], known: list[list[Inline]]) -> tuple[Inline, ...]:
+    """Return a passage without the sentences at its end that are known; empty if all are."""
+    sentences = _split_sentences(told)
+    while sentences and sentences[-1] in known:
+        sentences.pop()
+    return tuple(
+        one
+        for number, sentence in enumerate(sentences)
+        for one in ([PlainText(" "), *sentence] if number else sentence)
+    )
 
 
 def _format_citation(source: str) -> tuple[Inline, ...]:

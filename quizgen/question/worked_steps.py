@@ -34,6 +34,9 @@ from quizgen.question.list_steps import write_out_lists
 FORMULA, NUMBERS, RESULT = "formula", "numbers", "result"
 
 
+_RELATIONS = frozenset({"eq", "lt", "le", "gt", "ge"})
+
+
 class WorkedSide(NamedTuple):
     """One side of a worked line: formula, numbers, exact or rounded value.
 
@@ -85,10 +88,12 @@ def form_sides(drawn: Variant, step: ChainStep) -> tuple[WorkedSide, ...]:
     """Return the sides of a form: its formula, and the same with numbers in place, tidied."""
     with working_precision():
         expr = select_branch(step.expr, drawn.values, exact_system())
-    sides = [WorkedSide("=", typeset.lay_out(expr), format_tree(expr), FORMULA)]
+    states = isinstance(expr, Call) and expr.op in _RELATIONS  # a name is no side of an equation
+    first, then = (":", "⇔") if states else ("=", "=")
+    sides = [WorkedSide(first, typeset.lay_out(expr), format_tree(expr), FORMULA)]
     bound = drawn.form(step.name)
     if bound != expr:
-        sides.append(WorkedSide("=", typeset.lay_out(bound), format_tree(bound), RESULT))
+        sides.append(WorkedSide(then, typeset.lay_out(bound), format_tree(bound), RESULT))
     return tuple(sides)
 
 
@@ -96,7 +101,7 @@ def join_sides(name: str, sides: Sequence[WorkedSide]) -> TypesetMaths:
     """Return a quantity and some of its sides as one worked line."""
     signs = [side.sign for side in sides]
     nodes = [typeset.lay_out_name(name), *(side.node for side in sides)]
-    typed = "".join(f" {side.sign} {side.typed}" for side in sides)
+    typed = "".join(f" {side.sign} {side.typed}".replace(" :", ":", 1) for side in sides)
     return TypesetMaths(typeset.relation_chain(signs, nodes), f"{name}{typed}")
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple, TypeVar
 
@@ -20,16 +20,18 @@ from quizgen.bank.markdown import (
     InlineCode,
     ListBlock,
     Paragraph,
+    PlainText,
     TableBlock,
 )
 from quizgen.figures import Figure
 from quizgen.question.compose import AnswerField, Question, QuestionPart
-from quizgen.question.inlines import PlacedPicture, name_inline
+from quizgen.question.inlines import PlacedField, PlacedPicture, name_inline
 from quizgen.question.interpolation import inlines_to_text
 from quizgen.question.solution import PartSolution
 from quizgen.render.layouts import count_working_rows
 from quizgen.render.text import blocks_to_plain_text
 from quizgen.render.typst_document import (
+    GAP,
     blocks_to_typst,
     inlines_to_typst,
     join_languages,
@@ -106,17 +108,38 @@ def typeset_letters(said: Prose) -> Prose:
 
     On a screen it says what to type; on paper a letter is a letter.
     """
-    return _typeset_letters(said)
+    return _rewrite(said, _typeset_letter)
 
 
-def _typeset_letters(said: Any) -> Any:
-    """Return prose of any structure with its letters typeset."""
-    if isinstance(said, InlineCode):
-        return name_inline(said.text) if _LETTER.fullmatch(said.text) else said
+def name_fields(said: Prose) -> Prose:
+    """Return prose of a further language, whose fields stand in the words of the first."""
+    return _rewrite(said, _name_field)
+
+
+def _typeset_letter(piece: Any) -> Any:
+    """Return program text that is one letter as a formula, all else as it is."""
+    if isinstance(piece, InlineCode) and _LETTER.fullmatch(piece.text):
+        return name_inline(piece.text)
+    return piece
+
+
+def _name_field(piece: Any) -> Any:
+    """Return a field as one that stands elsewhere, a gap as dots, all else as it is."""
+    if isinstance(piece, PlacedField):
+        return msgspec.structs.replace(piece, elsewhere=True)
+    if isinstance(piece, PlainText):
+        return PlainText(GAP.sub("…", piece.text))
+    return piece
+
+
+def _rewrite(said: Any, change: Callable[[Any], Any]) -> Any:
+    """Return the same structure with its pieces changed, whatever it is made of."""
     if isinstance(said, Paragraph | ListBlock | TableBlock | Emphasis):
-        fields = {name: _typeset_letters(getattr(said, name)) for name in said.__struct_fields__}
+        fields = {name: _rewrite(getattr(said, name), change) for name in said.__struct_fields__}
         return msgspec.structs.replace(said, **fields)
-    return tuple(map(_typeset_letters, said)) if isinstance(said, tuple) else said
+    if isinstance(said, tuple):
+        return tuple(_rewrite(piece, change) for piece in said)
+    return change(said)
 
 
 _LETTER = re.compile(r"[A-Za-z]'?(_\w{1,3})?")

@@ -53,8 +53,8 @@ BESIDE = 4.0
 """Between two lines of one row."""
 MOST_LINES, MOST_BOXES = 3, 6
 """Lines of a text, and values that have a line each: more than that are written in one go."""
-LINE = 7.5
-"""Height of what is written on a line."""
+LINE, CELL = 7.5, 4.6
+"""Height of what is written on a line, and width of what a sign of a number takes at least."""
 
 
 class SheetField(msgspec.Struct, frozen=True, omit_defaults=True):
@@ -72,6 +72,8 @@ class SheetField(msgspec.Struct, frozen=True, omit_defaults=True):
     x, y, w, h : float
     option : str
         What a box that is ticked says, as it is typed: ``A``, ``true``, ``A:2``.
+    is_number : bool
+        Whether a number is written there, a sign in each cell.
     """
 
     page: int
@@ -82,6 +84,7 @@ class SheetField(msgspec.Struct, frozen=True, omit_defaults=True):
     w: float
     h: float
     option: str = ""
+    is_number: bool = False
 
 
 class SheetPlaces(msgspec.Struct, frozen=True):
@@ -98,7 +101,7 @@ class SheetPlaces(msgspec.Struct, frozen=True):
 class _Row(msgspec.Struct, frozen=True):
     """A row of the sheet: boxes with words, or one or two lines.
 
-    Lines have a name as Typst code, or none.
+    Lines have a name as Typst code, or none; those of numbers have cells.
     """
 
     part: str
@@ -108,6 +111,7 @@ class _Row(msgspec.Struct, frozen=True):
     step: float = STEP
     word: float = LETTER
     note: str = ""
+    is_number: bool = False
 
 
 def make_answer_sheet(paper: Paper, code_of: Callable[[int], str]) -> tuple[bytes, SheetPlaces]:
@@ -161,11 +165,11 @@ def _iter_rows(field: AnswerField, lang: str) -> Iterator[_Row]:
             for n, box in enumerate(control.boxes, 1)
         ]
         for at in range(0, len(named), 2):
-            yield _Row(field.id, lines=tuple(named[at : at + 2]))
+            yield _Row(field.id, lines=tuple(named[at : at + 2]), is_number=field.is_number)
     else:
         count = 2 if len(control.boxes) > MOST_BOXES else min(control.lines or 1, MOST_LINES)
         for number in range(1, count + 1):
-            yield _Row(field.id, lines=(("", str(number)),))
+            yield _Row(field.id, lines=(("", str(number)),), is_number=field.is_number)
 
 
 def _split_boxes(part: str, head: str, boxes: Sequence[tuple[str, str]]) -> Iterator[_Row]:
@@ -221,9 +225,10 @@ def _place_row(
         base = y + LINE - 1.0
         if head:
             shown.append(f"#word({round(left + number * step, 3)}, {round(y + 1.0, 3)}, {head})")
-        shown.append(f"#rule({round(x, 3)}, {round(base, 3)}, {round(width, 3)})")
+        cells = f", cells: {int(width // CELL)}" if row.is_number else ""
+        shown.append(f"#rule({round(x, 3)}, {round(base, 3)}, {round(width, 3)}{cells})")
         place = round(x, 3), round(base - LINE, 3), round(width, 3), LINE
-        yield SheetField(page, row.part, "line", *place, option)
+        yield SheetField(page, row.part, "line", *place, option, row.is_number)
 
 
 def _iter_head(paper: Paper, page: int, pages: int, code: str) -> Iterator[str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -21,6 +21,7 @@ from quizgen.render.answer_fields import (
     count_rows,
     is_ticked,
     mm_to_pt,
+    name_fields,
     typeset_hint,
     typeset_letters,
     typeset_part,
@@ -131,9 +132,6 @@ class _TypstPaper:
         rows = [f"rule([{translate_all(self.langs, 'paper.aids')}], [{aids}])"]
         for name in ("numbers", "working", "ticks"):
             said = [self._typeset_paper_word(name, lang) for lang in self.langs]
-            if name == "ticks":
-                times = [self._typeset_paper_word("time", lang) for lang in self.langs]
-                said = [f"{one} {time}" for one, time in zip(said, times, strict=True)]
             if name == "numbers" and self.scanned:
                 cells = [self._typeset_paper_word("cells", lang) for lang in self.langs]
                 said = [f"{one} {cell}" for one, cell in zip(said, cells, strict=True)]
@@ -161,6 +159,8 @@ class _TypstPaper:
             f"{format_marks(paper.points, main)}, {paper.minutes} {minutes}, "
             f"{len(paper.items)} {translate(main, f'paper.{count}')}"
         )
+        if self.kind == "exam":
+            total = f"{total}. {translate(main, 'paper.time')}"
         rows = [("code", f"raw({typst_literal(paper.code)})"), ("total", typst_literal(total))]
         if paper.holder:
             known = (("name", paper.holder.name), ("matriculation", paper.holder.id))
@@ -355,21 +355,22 @@ class _TypstPaper:
 
 
 def write_for_paper(item: PaperItem) -> tuple[Question, ...]:
-    """Return a question in its languages; where a formula is asked, its letters are no code."""
-    fields = [part.field for part in item.questions[0].parts]
+    """Return a question in its languages: a field stands in the words of the first alone.
+
+    Where a formula is asked, its letters are no code.
+    """
+    first, *others = item.questions
+    questions = (first, *(_change_words(question, name_fields) for question in others))
+    fields = [part.field for part in first.parts]
     if not any(field.control.form == "line" and not field.is_number for field in fields):
-        return item.questions
-    return tuple(
-        msgspec.structs.replace(
-            question,
-            stem=typeset_letters(question.stem),
-            parts=tuple(
-                msgspec.structs.replace(part, body=typeset_letters(part.body))
-                for part in question.parts
-            ),
-        )
-        for question in item.questions
-    )
+        return questions
+    return tuple(_change_words(question, typeset_letters) for question in questions)
+
+
+def _change_words(question: Question, change: Callable[[Any], Any]) -> Question:
+    """Return a question whose stem and parts are said otherwise."""
+    parts = (msgspec.structs.replace(part, body=change(part.body)) for part in question.parts)
+    return msgspec.structs.replace(question, stem=change(question.stem), parts=tuple(parts))
 
 
 def _format_holder(paper: Paper) -> str:

@@ -29,7 +29,8 @@ CODE = (165.0, 4.8, 12.5)
 MOST_PAGES = 60
 STROKE = 0.8 / 72 * 25.4
 """Millimetres that the frame of a box is thick; half of it is outside."""
-KINDS = {"box": "box", "line": "line", "frame": "line", "room": "room", "points": "points"}
+KINDS = {"box": "box", "line": "line", "frame": "line", "number": "line", "room": "room",
+         "points": "points"}  # fmt: skip
 """What a field is to a reader, by what the layout calls it."""
 LEAST = 1.0
 """Millimetres that room to work in is high at least."""
@@ -97,9 +98,9 @@ def _iter_fields(rows: Sequence[Sequence[Any]]) -> Iterator[SheetField]:
             whose, option = (number + what if what else part), ""
         if kind == "room" and h < LEAST:
             continue
-        more = STROKE / 2 if kind in {"box", "frame"} else 0.0
+        more = STROKE / 2 if kind in {"box", "frame", "number"} else 0.0
         yield SheetField(
             page, whose, KINDS[kind],
             round(x - more, 2), round(y - more, 2), round(w + 2 * more, 2), round(h + 2 * more, 2),
-            option,
+            option, kind == "number",
         )  # fmt: skip

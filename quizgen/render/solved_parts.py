@@ -45,15 +45,21 @@ def typeset_solved_part(one: PaperPart, drawing: str) -> str:
         The picture of the solved drawing; empty without one.
     """
     marks = mark_steps(one.solved[0], one.first.points, has_unit=one.first.field.has_unit)
+    result = _typeset_result(one)
     steps = [
-        _typeset_step([solved.lines[index] for solved in one.solved], one.langs, earned)
+        _typeset_step(
+            [solved.lines[index] for solved in one.solved],
+            one.langs,
+            earned,
+            hold=bool(result) and index == len(marks) - 1,
+        )
         for index, earned in enumerate(marks)
     ]
     body = [
         _typeset_listed(one),
         *steps,
         f"#drawn({drawing})" if drawing else "",
-        _typeset_result(one),
+        result,
         _typeset_accepted(one),
         _typeset_criteria(one),
         _typeset_why(one),
@@ -69,11 +75,16 @@ def typeset_solved_part(one: PaperPart, drawing: str) -> str:
 def _typeset_listed(one: PaperPart) -> str:
     """Return the options and targets that were to choose from, small, in columns."""
     rows = [
-        f"#listed({_count_columns(one, side)}, {', '.join(one.list_options(side))})"
+        f"#listed({_count_columns(one, side)}, {_is_tall(''.join(shown))}, {', '.join(shown)})"
         for side in ("options", "targets")
-        if getattr(one.first.field, side)
+        if getattr(one.first.field, side) and (shown := one.list_options(side))
     ]
     return "\n".join(rows)
+
+
+def _is_tall(markup: str) -> str:
+    """Return ``true`` for markup with formulas higher than a line: the next one keeps off."""
+    return "true" if any(sign in markup for sign in ("frac(", "^(", "floor(", "ceil(")) else "false"
 
 
 def _count_columns(one: PaperPart, side: str) -> int:
@@ -83,9 +94,16 @@ def _count_columns(one: PaperPart, side: str) -> int:
 
 
 def _typeset_step(
-    lines: Sequence[SolutionStep], langs: tuple[str, ...], earned: Sequence[SideMark]
+    lines: Sequence[SolutionStep],
+    langs: tuple[str, ...],
+    earned: Sequence[SideMark],
+    *,
+    hold: bool,
 ) -> str:
-    """Return one step: a row for each side with its points, and its sentence in each language."""
+    """Return one step: a row for each side with its points, and its sentence in each language.
+
+    ``hold`` keeps it on the page of what follows it, the answer.
+    """
     first, lang = lines[0], langs[0]
     name = inlines_to_typst((name_inline(first.name),), lang) if first.sides else ""
     rows = [
@@ -103,7 +121,8 @@ def _typeset_step(
         ],
     )
     cite = typst_literal(first.formula)
-    return f"#work([{name}], {cite}, {', '.join(rows)})\n#why[{why}]"
+    held = f"hold: {str(hold).lower()}"
+    return f"#work([{name}], {cite}, {held}, {', '.join(rows)})\n#why({held})[{why}]"
 
 
 def _typeset_mark(mark: SideMark, lang: str) -> str:
@@ -234,10 +253,11 @@ def _typeset_why(one: PaperPart) -> str:
 def _typeset_wrong(wrong: SolvedMisconception, lang: str, points: Fraction) -> str:
     """Return a wrong answer, what it earns, and what is wrong with it."""
     shown, sentence = (
-        typst_passage(inlines_to_typst(said, lang)) for said in (wrong.shown, wrong.sentence)
+        typst_passage(inlines_to_typst(said, lang)) for said in (wrong.shown, wrong.said)
     )
     earns = format_quarters(points * wrong.share, lang) if wrong.share else ""
-    return f"#slip({typst_literal(earns)}, [{shown}], [{sentence}])"
+    tall = _is_tall(shown + sentence)
+    return f"#slip({typst_literal(earns)}, {tall}, [{shown}], [{sentence}])"
 
 
 def typeset_remarks(solutions: Sequence[Solution]) -> str:

@@ -6,9 +6,11 @@ import json
 import os
 import re
 import unicodedata
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from datetime import UTC, datetime
 from functools import cache, lru_cache, singledispatch
+from itertools import groupby
+from operator import attrgetter
 from typing import Any, Final
 
 from quizgen import typeset
@@ -16,13 +18,21 @@ from quizgen.bank import markdown
 from quizgen.core.errors import RenderError
 from quizgen.locale import languages_in_script, translate
 from quizgen.question.inlines import PlacedField, PlacedPicture, TypesetMaths
-from quizgen.question.interpolation import unbreakable_groups
+from quizgen.question.interpolation import NBSP, SHORT, unbreakable_groups
 from quizgen.render import fonts
 
 _KNOWN = frozenset(map(chr, (*range(0x20, 0x7F), *range(0xA1, 0x180), *range(0x985, 0x9E4))))
 """Latin and Bangla, in which most names are written."""
 _LITERAL: Final = json.JSONEncoder(ensure_ascii=False)
-_GAP = re.compile("_{3,}")
+GAP = re.compile("_{3,}")
+_TIED = re.compile(
+    r"\d[ \u00a0][A-Za-zµ°%]{1,4}\b(?:/[A-Za-zµ]+)?"
+    r"|\((?:[^()\s]{1,7}[;,] ){1,3}[^()\s]{1,7}\)"
+)
+"""A number with its unit, and a point: no line ends within them."""
+_BREAKS = frozenset("=<>≤≥≈+-*/")
+"""Signs of a formula beside which a line may end."""
+WORD_JOINER = "\u2060"
 STANDARD: Final = "ua-1"
 MAIN: Final = "main.typ"
 MOMENT = datetime(2000, 1, 1, tzinfo=UTC)
@@ -44,20 +54,47 @@ def inlines_to_typst(part: markdown.Inline | tuple[markdown.Inline, ...], lang: 
 @lru_cache(maxsize=1 << 13)
 def _join_inlines(parts: tuple[markdown.Inline, ...], lang: str) -> str:
     """Return several inlines as Typst markup, cached: most sentences occur in several papers."""
-    return "".join(_keep_together(group, lang) for group in unbreakable_groups(parts))
+    groups = unbreakable_groups(_join_words(parts))
+    return "".join(_keep_together(group, lang) for group in groups)
+
+
+def _join_words(parts: Iterable[markdown.Inline]) -> Iterator[markdown.Inline]:
+    """Yield inlines with the words side by side as one, numbers tied to their units.
+
+    What was filled in is read together with what stands around it.
+    """
+    for is_words, run in groupby(parts, key=lambda part: isinstance(part, markdown.PlainText)):
+        if is_words:
+            yield markdown.PlainText(_TIED.sub(_tie, "".join(map(attrgetter("text"), run))))
+        else:
+            yield from run
 
 
 def _keep_together(group: tuple[markdown.Inline, ...], lang: str) -> str:
-    """Return inlines as Typst markup between which no line ends."""
+    """Return inlines as Typst markup between which no line ends, nor within a short formula."""
     body = "".join(inlines_to_typst(part, lang) for part in group)
-    return f"#box[{body}];" if len(group) > 1 else body
+    return f"#box[{body}];" if len(group) > 1 or _is_short_line(group[0]) else body
+
+
+def _is_short_line(part: markdown.Inline) -> bool:
+    """Return whether a piece is a formula that is short, and that a line may end in."""
+    return (
+        isinstance(part, TypesetMaths)
+        and len(part.typed_text) <= SHORT
+        and not _BREAKS.isdisjoint(part.typed_text)
+    )
 
 
 @inlines_to_typst.register
 def _format_words(part: markdown.PlainText, _lang: str) -> str:
     """Return words as Typst markup, with a blank of the width of a word where they have a gap."""
-    said = [f"#{typst_literal(text)};" if text else "" for text in _GAP.split(part.text)]
+    said = [f"#{typst_literal(text)};" if text else "" for text in GAP.split(part.text)]
     return "#gap;".join(said)
+
+
+def _tie(found: re.Match[str]) -> str:
+    """Return words found in a sentence so that no line ends within them."""
+    return found[0].replace(" ", NBSP).replace("/", f"/{WORD_JOINER}")
 
 
 @inlines_to_typst.register
@@ -89,18 +126,27 @@ def _format_picture(part: PlacedPicture, _lang: str) -> str:
 
 @inlines_to_typst.register
 def _format_field(part: PlacedField, lang: str) -> str:
-    """Return the field of a part as Typst markup: a ruled blank, or a box before each option."""
+    """Return the field of a part as Typst markup: a ruled blank, or a box before each option.
+
+    Where the field stands elsewhere, there are dots or the options alone.
+    """
     label = f'#text(0.85em, fill: rgb("#4b5563"), {typst_literal(f"({part.label})")});#h(0.25em);'
     label = label if part.label else ""
     if not part.options:
-        return f"#box[{label}#blank({typst_literal(part.label)});];"
+        blank = "…" if part.elsewhere else f"#blank({typst_literal(part.label)});"
+        return f"#box[{label}{blank}];"
     boxed = [
-        f"#box[#option({typst_literal(part.label)}, {typst_literal(mark)});#h(0.3em);"
+        f"#box[{'' if part.elsewhere else _format_box(part.label, mark)}"
         f"{_format_mark(mark)}{inlines_to_typst(said, lang)}];"
         for mark, said in part.options
     ]
     first, *rest = boxed
     return " #h(0.4em); ".join([f"#box[{label}{first}];", *rest])
+
+
+def _format_box(label: str, mark: str) -> str:
+    """Return the box of an option in Typst."""
+    return f"#option({typst_literal(label)}, {typst_literal(mark)});#h(0.3em);"
 
 
 def _format_mark(mark: str) -> str:
@@ -164,7 +210,8 @@ def _format_table(part: markdown.TableBlock, lang: str) -> str:
     rest = ", ".join(f"[{inlines_to_typst(cell, lang)}]" for cell in cells[len(part.head) :])
     placed = any(isinstance(one, PlacedField) for cell in cells for one in cell)
     align = "align: horizon, " if placed else ""
-    return f"#table(columns: {len(part.head)}, {align}table.header({head}), {rest});"
+    headed = f"table.header({head}), " if any(part.head) else ""
+    return f"#table(columns: {len(part.head)}, {align}{headed}{rest});"
 
 
 def in_language(lang: str, body: str) -> str:

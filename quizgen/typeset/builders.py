@@ -26,7 +26,8 @@ from quizgen.typeset.nodes import (
     UnitText,
 )
 
-RELATIONS = frozenset(["=", "≠", "<", "≤", ">", "≥", "≈", "∝", "→", "∈", "±", "~", "≪", "≫", "⇒"])
+RELATIONS = frozenset(["=", "≠", "<", "≤", ">", "≥", "≈", "∝", "→", "∈", "±", "~", "≪", "≫", "⇒", "⇔",
+                       ":"])  # fmt: skip
 EQUALS = (OperatorSign("="), OperatorSign("≈"))
 """The signs of a worked line."""
 _DIGITS = r"\d[\d\u0020\u00a0\u2009\u202f]*(?:[.,]\d+)?"
@@ -137,7 +138,7 @@ def relation_chain(signs: Sequence[str], nodes: Sequence[Node]) -> MathRow:
     Parameters
     ----------
     signs : sequence of str
-        Each one of ``= ≠ < ≤ > ≥ ≈ ∝ → ∈ ± ~ ≪ ≫ ⇒``.
+        Each one of ``= ≠ < ≤ > ≥ ≈ ∝ → ∈ ± ~ ≪ ≫ ⇒ ⇔``, or ``:`` behind a name.
     nodes : sequence of Node
         The sides, for example symbol, formula, numbers in place, result.
 
@@ -152,7 +153,7 @@ def relation_chain(signs: Sequence[str], nodes: Sequence[Node]) -> MathRow:
     for sign, node in zip(signs, nodes[1:], strict=True):
         if sign not in RELATIONS:
             raise RenderError(f"unknown relation sign {sign!r}")
-        items += [OperatorSign(sign), node]
+        items += [OperatorSign("colon" if sign == ":" else sign), node]
     return MathRow(tuple(items), RELATION)
 
 

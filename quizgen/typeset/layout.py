@@ -5,7 +5,7 @@ All four outputs print the same layout, so none can disagree with another on wha
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 
 from msgspec.structs import replace
@@ -124,12 +124,21 @@ HEADS: dict[str, Node] = {
     "acosh": Word("arcosh"),
     "atanh": Word("artanh"),
     "sign": Word("sgn"),
+    "gamma": Word("Γ"),
+    "lowergamma": Word("γ"),
+    "uppergamma": Word("Γ"),
+    "zeta": Word("ζ"),
+    "beta": Word("B"),
+    "lambertw": Word("W"),
     "normal_cdf": Word("Φ"),
     "normal_quantile": Scripts(
         Word("Φ"), None, MathRow((OperatorSign("neg"), Digits("1")), NEGATIVE)
     ),
 }
 """Functions that are printed under another name than they are typed."""
+_BESSEL = {"besselj": "J", "bessely": "Y", "besseli": "I", "besselk": "K"}
+_DISTRIBUTIONS = {"t": "t", "chi2": "χ", "f": "F"}
+"""Distributions with degrees of freedom, by the letters that they are called."""
 
 _POWER_ON_NAME = frozenset({"sin", "cos", "tan"})
 _OPPOSITES = {"eq": "ne", "ne": "eq", "lt": "ge", "ge": "lt", "gt": "le", "le": "gt"}
@@ -450,6 +459,42 @@ def _make_function_rule(row: Operator) -> LayoutRule:
     return rule
 
 
+def _make_order_rule(letter: str) -> LayoutRule:
+    """Return the rule for a function whose first argument is its index: J₀(x)."""
+
+    def rule(run: _Layout, args: tuple[Expr, ...]) -> Node:
+        """Return the function of its second argument."""
+        order, of = args
+        return Func(Scripts(Word(letter), run.small(order)), (run.lay(of),))
+
+    return rule
+
+
+def _make_distribution_rules(name: str, letter: str) -> dict[str, LayoutRule]:
+    """Return the rules for a distribution function, P(T₉ ≤ x), and for its quantile, t₉ with p."""
+    square = Digits("2") if letter == "χ" else None
+
+    def lay_out_freedoms(run: _Layout, freedoms: Sequence[Expr]) -> Node:
+        """Return the degrees of freedom in a row."""
+        return _join_nodes([run.small(one) for one in freedoms], ",")
+
+    def cdf(run: _Layout, args: tuple[Expr, ...]) -> Node:
+        """Return the probability of a value up to the first argument."""
+        value, *freedoms = args
+        variable = Ident("T" if letter == "t" else letter)  # t is what it is compared with
+        named = Scripts(variable, lay_out_freedoms(run, freedoms), square)
+        below = (named, OperatorSign("≤"), run.lay_out_bracketed(value, SUM))
+        return Func(Ident("P"), (MathRow(below, RELATION),))
+
+    def quantile(run: _Layout, args: tuple[Expr, ...]) -> Node:
+        """Return the value with the first argument as the share below it."""
+        share, *freedoms = args
+        indices = _join_nodes([lay_out_freedoms(run, freedoms), run.small(share)], ";")
+        return Scripts(Ident(letter), indices, square)
+
+    return {f"{name}_cdf": cdf, f"{name}_quantile": quantile}
+
+
 # Relations and choices
 
 
@@ -556,10 +601,13 @@ def _lay_out_vector(run: _Layout, args: tuple[Expr, ...]) -> Node:
 
 def _list_items(run: _Layout, args: tuple[Expr, ...], sign: str = ";") -> Node:
     """Return a row of arguments with a sign between them."""
-    items: list[Node] = []
-    for arg in args:
-        items += [OperatorSign(sign), run.lay(arg)] if items else [run.lay(arg)]
-    return MathRow(tuple(items), WORDS)
+    return _join_nodes(list(map(run.lay, args)), sign)
+
+
+def _join_nodes(nodes: Sequence[Node], sign: str) -> Node:
+    """Return nodes in a row with a sign between them; one alone as it is."""
+    items = [item for node in nodes for item in (OperatorSign(sign), node)][1:]
+    return items[0] if len(items) == 1 else MathRow(tuple(items), WORDS)
 
 
 def _lay_out_set(run: _Layout, args: tuple[Expr, ...]) -> Node:
@@ -609,6 +657,12 @@ _RULES: dict[str, LayoutRule] = {
     **{
         row.name: _make_function_rule(replace(row, name=row.signs[0], most=MANY))
         for row in operators_with_syntax(OperatorSyntax.LIST)
+    },
+    **{name: _make_order_rule(letter) for name, letter in _BESSEL.items()},
+    **{
+        name: rule
+        for called, letter in _DISTRIBUTIONS.items()
+        for name, rule in _make_distribution_rules(called, letter).items()
     },
     "mean": _lay_out_mean,
     "at": _lay_out_item,

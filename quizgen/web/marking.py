@@ -294,6 +294,8 @@ class _AnswerRow:
         Whether it is decided, and whether it stands on a picture alone.
     typed : str
         What somebody read there since the class was marked.
+    proposal : str
+        The number that the picture may show.
     """
 
     group: str
@@ -305,6 +307,7 @@ class _AnswerRow:
     is_decided: bool
     to_read: bool
     typed: str
+    proposal: str
 
     @classmethod
     def build(
@@ -326,6 +329,7 @@ class _AnswerRow:
             [index.describe(one.student) for one in whose],
             said[group].step if group in said else "", group in said,
             index.is_to_be_read(case), typed.get(group, ""),
+            index.proposals.get(whose[0], ""),
         )  # fmt: skip
 
 

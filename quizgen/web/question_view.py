@@ -470,7 +470,7 @@ def _render_board(drawing: FieldPicture | None) -> Html:
 def _render_mistakes(mistakes: Iterable[SolvedMisconception], lang: str) -> list[tuple[Html, Html]]:
     """Return the shown value and the sentence of each misconception as HTML."""
     return [
-        (_render_inline(one.shown, lang), _render_inline(one.sentence, lang)) for one in mistakes
+        (_render_inline(one.shown, lang), _render_inline(one.said, lang)) for one in mistakes
     ]
 
 

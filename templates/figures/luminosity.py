@@ -36,7 +36,9 @@ _FLOOR = 1e-4  # of the logarithmic axis
 _LEVELS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
 _DECADES = range(-4, 1)
 _FINE = [decade + log10(digit) for decade in _DECADES[:-1] for digit in range(2, 10)]
-_NAMED = {0: (606.0, 457.0), 1: (692.0, 622.0)}  # nm where V and V' are named, by the axis
+_NAMED = {0: ((606.0, 622.0, 588.0, 572.0), (457.0, 490.0, 435.0)), 1: ((692.0,), (622.0,))}
+"""Where V and V' may be named in nm, by the axis: the first place that no mark runs through."""
+_NAME_WIDTH = 28.0
 
 
 def list_marks(values: Values) -> tuple[float, ...]:
@@ -90,12 +92,18 @@ def draw(ax: Any, values: Values, *, quiz: bool) -> None:
         line = _curve(night, bool(values["log"]))
         art.line(line, ink, 1.2 if night else 1.6, dashes=(5, 2.2) if night else None,
                  part="night" if night else "day")  # fmt: skip
-        at = _NAMED[int(values["log"])][night]
-        y = _height(values, read_efficiency(at, night=night))
         side = -1 if night and not values["log"] else 1
+        at = _place_name(_NAMED[int(values["log"])][night], side, marks)
+        y = _height(values, read_efficiency(at, night=night))
         art.label((at, y), "$V'$" if night else "$V$", "l" if side > 0 else "r", 11, ink,
                   shift=(5 * side, 2))  # fmt: skip
     _draw_marks(ax, art, values, told=not quiz)
+
+
+def _place_name(places: tuple[float, ...], side: int, marks: tuple[float, ...]) -> float:
+    """Return the first place beside which a name stands clear of all marks; else the first."""
+    clear = (at for at in places if not any(0 < side * (m - at) < _NAME_WIDTH for m in marks))
+    return next(clear, places[0])
 
 
 def _draw_axes(ax: Any, *, logarithmic: bool) -> None:

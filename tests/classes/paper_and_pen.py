@@ -167,21 +167,31 @@ class Pen:
         x, base = line["x"] + r.uniform(0.5, 4), line["y"] + line["h"] - r.uniform(0.2, 1.2)
         for sign in text:
             wide = high * 0.55
-            for stroke in STROKES[sign]:
-                points = [tuple(map(float, one.split(","))) for one in stroke.split()]
-                self.draw(
-                    page,
-                    [
-                        [
-                            (
-                                x + wide * (a + self.slant * (1 - b)) + r.gauss(0, 0.05),
-                                base - high * (1 - b) + r.gauss(0, 0.05),
-                            )
-                            for a, b in points
-                        ]
-                    ],
-                )
+            self.write_sign(page, sign, x, base, (wide, high))
             x += wide * r.uniform(1.25, 1.5) if sign != "." else wide * 0.7
+
+    def write_in_cells(self, page: Image.Image, field: dict, text: str, cells: int) -> None:
+        """Write a sign in each cell of a field, about in its middle."""
+        r, cell = self.random, field["w"] / cells
+        high, base = r.uniform(3.0, 4.5), field["y"] + field["h"] - r.uniform(0.7, 1.4)
+        high = min(high, field["h"] - 2.2)
+        wide, drift = min(high * 0.55, cell * 0.72), r.gauss(0, 0.25)
+        for place, sign in enumerate(text):
+            x = field["x"] + place * cell + (cell - wide) / 2 + drift + r.gauss(0, 0.2)
+            self.write_sign(page, sign, x, base + r.gauss(0, 0.15), (wide, high))
+
+    def write_sign(self, page: Image.Image, sign: str, x: float, base: float, size) -> None:
+        """Write a sign of a width and height above a line."""
+        r, (wide, high) = self.random, size
+        for stroke in STROKES[sign]:
+            points = [
+                (
+                    x + wide * (a + self.slant * (1 - b)) + r.gauss(0, 0.05),
+                    base - high * (1 - b) + r.gauss(0, 0.05),
+                )
+                for a, b in (map(float, one.split(",")) for one in stroke.split())
+            ]
+            self.draw(page, [points])
 
 
 def bend(points, shaky: float, r: random.Random):

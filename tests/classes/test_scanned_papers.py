@@ -158,18 +158,28 @@ def marks_of_whole_or_none(line: dict, marks: dict) -> set[str]:
     return {part for part, points in worth.items() if marks[line["id"], part] in {0.0, points}}
 
 
-def test_working_without_an_answer_is_asked(made_class, lines, blanks, tmp_path):
+def test_working_without_an_answer_is_asked_and_a_number_proposed(
+    made_class, lines, blanks, tmp_path
+):
     folder = shutil.copytree(made_class, tmp_path / "class")
-    room = next(one for one in lines["7"]["sheet"]["fields"] if one["kind"] == "room")
-    page = blanks["7"][room["page"] - 1].copy()
+    fields = lines["7"]["sheet"]["fields"]
+    room = next(one for one in fields if one["kind"] == "room")
+    pairs = [one for one in fields if one.get("option") and one.get("is_number")]
+    page, first = (blanks["7"][one["page"] - 1].copy() for one in (room, pairs[0]))
     Pen(3).write(page, room | {"h": 8.0, "x": room["x"] + 20}, "57-3")
-    save_scan(page, tmp_path / "a", "200")
-    run("class", "scan", folder, tmp_path / "a.jpg")
+    for one, sign in zip(pairs, "3124", strict=True):
+        clear_pen(4).write_in_cells(first, one, sign, 1)
+    for name, picture in (("a", page), ("b", first)):
+        save_scan(picture, tmp_path / name, "200")
+    run("class", "scan", folder, tmp_path / "a.jpg", tmp_path / "b.jpg", "--jobs", 1)
     report = json.loads((folder / "scans" / "report.json").read_text("utf-8"))["students"]["7"]
     asked = {
         part for part, one in report["parts"].items() if one.get("why", "") not in {"", "missing"}
     }
-    assert asked == {room["part"]}
+    assert asked == {room["part"], pairs[0]["part"]}
+    proposed = ", ".join(f"{one['option']}:{sign}" for one, sign in zip(pairs, "3124", strict=True))
+    assert report["parts"][pairs[0]["part"]]["proposal"] == proposed
+    assert f'data-proposal="{proposed}"' in (folder / "scans" / "scans.html").read_text("utf-8")
 
 
 def test_papers_are_either_scanned_themselves_or_have_sheets(made_class, tmp_path, capsys):

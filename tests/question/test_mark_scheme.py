@@ -5,15 +5,16 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
+from msgspec.structs import replace
 
-from quizgen.bank.bank import Bank
+from quizgen.bank.bank import Bank, builtin_bank
 from quizgen.core.errors import BankError
 from quizgen.kinds import KINDS
 from quizgen.kinds.grade import grade_answer
 from quizgen.kinds.number import NumberSpec
 from quizgen.kinds.quantity import QuantitySpec
 from quizgen.question.compose import compose_question
-from quizgen.question.mark_scheme import mark_steps
+from quizgen.question.mark_scheme import mark_steps, rescale_criteria
 
 SOLVER = """from sympy import symbols
 
@@ -125,3 +126,15 @@ def test_a_value_read_off_a_plot_is_no_fraction_and_an_exposure_time_is_one():
     assert KINDS["number"].explain_key(third, "en") == "1/3 ≈ 0.333"
     exact = NumberSpec(kind="number", value="1968/325", exact=True)
     assert KINDS["number"].explain_key(exact, "en") == "1968/325"
+
+
+def test_criteria_add_up_to_what_a_paper_gives_the_part():
+    drawn = builtin_bank().template("weak-perspective-when")
+    solved = compose_question(drawn, 1, "en")[1].solution.parts[0]
+    assert [row.points for row in solved.scheme] == [1, 1, 1]
+    rescaled = [row.points for row in rescale_criteria(solved, Fraction(4)).scheme]
+    assert sum(rescaled) == 4
+    assert all(one % Fraction(1, 4) == 0 for one in rescaled)
+    best = rescale_criteria(replace(solved, most=Fraction(2)), Fraction(3))
+    assert [row.points for row in best.scheme] == [Fraction(3, 2)] * 3
+    assert best.most == 3

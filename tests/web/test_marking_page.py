@@ -311,8 +311,12 @@ def test_pictures_are_shown_from_the_scans_alone(first, folder):
     scans.mkdir(parents=True)
     Image.new("L", (80, 20), 255).save(scans / "3b.png")
     (scans / "1a.png").symlink_to(folder / "class.toml")
-    (folder / "scans" / "report.json").write_text("{}")  # the last that is written: all is there
+    parts = {"3b": {"answer": None, "why": "written", "proposal": "-2.5"}}
+    report = json.dumps({"students": {"4": {"parts": parts}}})
+    (folder / "scans" / "report.json").write_text(report)  # the last written: all is there
     page = first.get(PAGE + "&card=" + find_blank(first))
+    assert 'name="typed" value="-2.5" class="proposed"' in page
+    assert "A proposal: compare it with the picture" in page
     assert f'src="/marking/crop/{codes["4"]}/3b"' in page
     assert "(nothing typed)" in page
     client = first.client

@@ -21,7 +21,7 @@ for (const row of rows) {
   input.addEventListener("change", () => keep(row, input.value.trim() || null));
   input.addEventListener("keydown", event => {
     if (event.key !== "Enter") return;
-    if (!input.value.trim() && input.placeholder && !(name(row) in known)) input.value = input.placeholder;
+    if (!input.value.trim() && !(name(row) in known)) input.value = input.dataset.proposal;
     if (input.value.trim()) keep(row, input.value.trim());
     next(row);
   });

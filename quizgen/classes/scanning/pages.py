@@ -16,6 +16,7 @@ import numpy as np
 
 from quizgen.classes.class_folder import PAPERS, SHEETS, ClassFolder
 from quizgen.classes.roster import RosterStudent
+from quizgen.classes.scanning.digits import propose_number
 from quizgen.classes.scanning.ink import (
     CROSSED,
     DOUBTFUL,
@@ -413,8 +414,10 @@ class _SheetReader:
         read = read_boxes(page, self.boxes, frames, ink) if frames else []
         if fault:
             read = [BoxReading(DOUBTFUL, 0.0) for _ in self.boxes]
-        parts = dict(self._iter_parts(dict(zip(self.boxes, read, strict=True)), ink, fault))
         shown = bend_page(page, shift, 1.0)
+        parts = dict(self._iter_parts(dict(zip(self.boxes, read, strict=True)), ink, fault))
+        if not fault:
+            parts = {part: self._propose(part, one, shown, blank) for part, one in parts.items()}
         pictures = {PAGE: _draw_readings(shown, self.boxes, read, parts)} | {
             part: _cut_part(shown, one.box) for part, one in parts.items() if one.answer is None
         }
@@ -426,6 +429,21 @@ class _SheetReader:
             doubtful=sum(one.state == DOUBTFUL for one in read),
         )
         return ReadPicture(made, pictures)
+
+    def _propose(
+        self, part: str, read: PartReading, page: NDArray[np.uint8], blank: NDArray[np.uint8]
+    ) -> PartReading:
+        """Return what was read of a part, with the number that may be written there."""
+        fields = [one for one in self.fields if one.part == part and one.kind == "line"]
+        if read.why != WRITTEN or not all(one.is_number for one in fields):
+            return read
+        said = [propose_number(page, blank, one) for one in fields]
+        if not all(said):
+            return read
+        pairs = [one.option for one in fields]
+        joined = ", ".join(map(":".join, zip(pairs, said, strict=True)))
+        made = joined if self.sheet.kinds[part] == "match" else "; ".join(said)
+        return msgspec.structs.replace(read, proposal=made)
 
     def _draw_blank(self) -> NDArray[np.uint8]:
         """Return the page as it was printed.

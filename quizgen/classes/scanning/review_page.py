@@ -9,6 +9,7 @@ from markupsafe import Markup
 
 from quizgen.classes.scanning.pages import NO_CODE, PAGE, PageReading
 from quizgen.classes.scanning.scan_folder import (
+    DIFFERS,
     NO_FIELD,
     NOT_SCANNED,
     ReadSheet,
@@ -102,8 +103,9 @@ def _group_asked_parts(
         for part, one in sheet.open_parts.items():
             read = one.reading
             if read.why not in {NO_FIELD, NOT_SCANNED}:
+                taken = "" if read.why == DIFFERS else read.proposal
                 found.setdefault(part, []).append(
                     {"student": sheet.student, "crop": one.crop, "why": read.why,
-                     "proposal": read.proposal}
+                     "proposal": read.proposal, "taken": taken}
                 )  # fmt: skip
     return [*found.items()]

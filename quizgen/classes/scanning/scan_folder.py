@@ -51,6 +51,29 @@ _PAGE_ROW = re.compile(rf"{PAGE}\s*(\d{{1,3}})?")
 _PART = re.compile(r"\d{1,3}[a-z]{0,2}")
 
 
+class _ReportPart(msgspec.Struct):
+    """What ``report.json`` says of a part."""
+
+    answer: str | None
+    why: str = ""
+    proposal: str = ""
+
+
+class _ReportSheet(msgspec.Struct):
+    """What ``report.json`` says of a student."""
+
+    parts: dict[str, _ReportPart]
+
+
+class _Report(msgspec.Struct):
+    """What ``report.json`` says."""
+
+    students: dict[str, _ReportSheet] = {}
+
+
+_REPORT = json_decoder(_Report).decode
+
+
 class ReadPart(NamedTuple):
     """What is known of a part of a student.
 
@@ -344,6 +367,34 @@ def find_crop(folder: Path, head: PrintedHead, part: str) -> Path | None:
         if path.is_relative_to(scans) and path.is_file():
             return path
     return None
+
+
+def read_proposals(folder: Path) -> dict[tuple[str, str], str]:
+    """Return what may stand on pictures that nobody has read, by student and part.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        That of the class.
+
+    Raises
+    ------
+    ClassError
+        If the report of what was read is damaged.
+    """
+    path = folder / SCANS / REPORT
+    if not path.exists():
+        return {}
+    try:
+        found = _REPORT(path.read_bytes())
+    except msgspec.DecodeError as error:
+        raise ClassError(f"{path}: {error}", rule="QG612") from None
+    return {
+        (student, part): one.proposal
+        for student, sheet in found.students.items()
+        for part, one in sheet.parts.items()
+        if one.answer is None and one.why != DIFFERS and one.proposal
+    }
 
 
 def _write_pictures(folder: Path, files: Mapping[str, bytes]) -> None:

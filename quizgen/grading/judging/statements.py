@@ -708,7 +708,12 @@ class Statement:
 
         After a word of correction (*no: brighter*), what was said of the idea before is dropped.
         """
-        found = [one for example in examples for one in self._iter_evidence(example)]
+        found = [
+            one
+            for example in examples
+            if self._may_hold(example)
+            for one in self._iter_evidence(example)
+        ]
         kept: list[Evidence] = []
         for one in sorted(found, key=_rank):
             if not any(other.first <= one.last and one.first <= other.last for other in kept):
@@ -717,6 +722,11 @@ class Statement:
             if clause.corrects and any(one.first > index for one in kept):
                 kept = [one for one in kept if one.first > index]
         return sorted(kept, key=lambda one: one.first)
+
+    def _may_hold(self, example: Example) -> bool:
+        """Return whether every word of an example is there; most have one that is nowhere."""
+        items = example.steps[0] if len(example.steps) == 1 else ()
+        return all(item.scales or self._list_rows(item) for item in items)
 
     def touches(self, examples: Iterable[Example]) -> bool:
         """Return whether any word of the examples is there."""
@@ -795,8 +805,7 @@ class Statement:
         if not items:
             return None
         taken: list[int] = []
-        blocked = {at for clause in self.clauses for at in clause.compared}
-        blocked = set() if example.compared else blocked
+        blocked = set[int]() if example.compared else self._compared
         for item in items:
             if item.scales:
                 continue
@@ -817,6 +826,11 @@ class Statement:
             taken += [place]
         general = all(item.is_general for item in items)
         return (0 if general and flips > 1 else sign), tuple(sorted(taken))
+
+    @cached_property
+    def _compared(self) -> set[int]:
+        """Return the tokens of all clauses with which something is compared."""
+        return {at for clause in self.clauses for at in clause.compared}
 
     def _find_end(
         self, item: _Item, places: Iterable[int], taken: Sequence[int]
@@ -864,7 +878,12 @@ class Statement:
         return all(word in after for word in row[1:])
 
     def _find_rows(self, item: _Item, places: Iterable[int]) -> list[tuple[int, ...]]:
-        """Return the tokens of each place where a row of an item stands."""
+        """Return the tokens of each of some places where a row of an item stands."""
+        inside = set(places)
+        return [row for row in self._list_rows(item) if row[0] in inside and row[-1] in inside]
+
+    def _list_rows(self, item: _Item) -> list[tuple[int, ...]]:
+        """Return the tokens of each place of the text where a row of an item stands."""
         if id(item) not in self._rows:
             found = sorted(
                 (at, number)
@@ -874,8 +893,7 @@ class Statement:
             )
             rows = [tuple(range(at, at + len(item.rows[number]))) for at, number in found]
             self._rows[id(item)] = (item, rows)
-        inside = set(places)
-        return [row for row in self._rows[id(item)][1] if row[0] in inside and row[-1] in inside]
+        return self._rows[id(item)][1]
 
     @cached_property
     def _firsts(self) -> list[tuple[int, str]]:

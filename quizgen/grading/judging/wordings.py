@@ -9,11 +9,12 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Sequence
-from functools import lru_cache
+from functools import cache, lru_cache
 from itertools import pairwise
 
 from quizgen.grading.judging.spelling import allowed_typos, fold_word, typo_distance
 from quizgen.grading.reading.answer_reader import says_otherwise
+from quizgen.locale import list_languages, load_words
 
 _TOKEN = re.compile(
     r"[-+−]?(?:\d+/)?√?\d+(?:[.,]\d+)?(?:/√?\d+)?|[^\W\d_]+/\d+|(?:[^\W\d_]|[\u0980-\u09ff])+\d*"
@@ -67,6 +68,25 @@ _IDLE = frozenset(
         "eine",
         "i",
         "think",
+        "at",
+        "on",
+        "এর",
+        "এ",
+        "টি",
+        "টা",
+        "এই",
+        "হব",
+        "হয়",
+        "হবে",
+        "হয়ে",
+        "হয়",
+        "হয়ে",
+        "যাব",
+        "যায়",
+        "যায়",
+        "আর",
+        "ও",
+        "এবং",
     }
 )
 _AGAINST = frozenset(
@@ -121,6 +141,52 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
     return 0 if denied else hits[0]
 
 
+def find_wording_in(
+    typed: str, languages: Sequence[Sequence[str]], *, all_named: bool = False
+) -> int:
+    """Return the place of the wording that is meant in any of some languages; 0 if none is.
+
+    German words that are no language of the bank are tried as what they say in English. Places
+    that differ between languages mean none.
+    """
+    found = {find_wording(typed, wordings, all_named=all_named) for wordings in languages} - {0}
+    if not found and len(languages) > 1:  # people mix them: ``অনেক বেশি dark``
+        mixed = [" ".join(texts) for texts in zip(*languages, strict=True)]
+        found = {find_wording(typed, mixed, all_named=all_named)} - {0}
+    for said in () if found else list_translated(typed):
+        found |= {find_wording(said, languages[0], all_named=all_named)} - {0}
+    return found.pop() if len(found) == 1 else 0
+
+
+def share_words(typed: str, wordings: Sequence[str]) -> bool:
+    """Return whether an answer has a word of some wordings that says something."""
+    return bool({*_split_words(typed)} & {word for one in wordings for word in _split_words(one)})
+
+
+@cache
+def load_translations() -> dict[str, tuple[str, ...]]:
+    """Return common words of other languages, folded, with what they say in English."""
+    return {
+        fold_word(word): tuple(said)
+        for lang in list_languages()
+        for word, said in load_words(lang, "answers").get("said", {}).items()
+    }
+
+
+def list_translated(typed: str) -> list[str]:
+    """Return a text with its known words of other languages in English; none if it has none."""
+    pieces = re.split(r"([\s,;:()-]+)", typed)
+    known = [load_translations().get(fold_word(piece)) if piece else None for piece in pieces]
+    most = max((len(said) for said in known if said), default=0)
+    return [
+        "".join(
+            said[min(turn, len(said) - 1)] if said else piece
+            for piece, said in zip(pieces, known, strict=True)
+        )
+        for turn in range(most)
+    ]
+
+
 def holds_wording(text: str, wording: str) -> bool:
     """Return whether a sentence has all of a wording in it, as words of its own."""
     said, wanted = (" ".join(_ANY_WORD.findall(one.casefold())) for one in (text, wording))
@@ -141,7 +207,7 @@ def _list_names_of(wording: str) -> set[frozenset[str]]:
     return {frozenset(_split_words(part)) for part in (wording, *parts)} - {frozenset()}
 
 
-_APART = re.compile(r"(?<!\d)[,;](?= )|(?<=\d)[,;](?= [^\W\d])|[()]")
+_APART = re.compile(r"(?<!\d)[,;](?= )|(?<=\d)[,;](?= [^\W\d])|[()]|:(?= )")
 
 
 def _find_nearest(meant: frozenset[str], listed: list[frozenset[str]]) -> list[int]:
@@ -166,17 +232,24 @@ def _says_enough(
 ) -> bool:
     """Return whether an answer has enough of a wording: ``barrel``, not ``pixels`` for hot ones.
 
-    It has all numbers and letters in it, and at least half of the words that no other one has; more
-    words of its own only with all of these.
+    It has all numbers and letters in it, and at least half of the words that no other one has; a
+    word of its own only with two thirds of these, more of them only with all.
     """
-    exact = {word for word in wording if len(word) == 1 or not word.isalpha()}
+    exact = {
+        word
+        for word in wording
+        if len(word) == 1 or not (word.isalpha() or _BANGLA.match(word))
+    }
     own = _own_words(frozenset(wording), listed)
     said = own & meant
     if exact - meant or 2 * len(said) < len(own):
         return False
     if said == own:
         return True
-    return not meant - {*wording} and not (wording[-1].isalpha() and said == {wording[-1]})
+    more = len(meant - {*wording})
+    if more == 1 and len(said) > 1 and 3 * len(said) >= 2 * len(own):
+        return True
+    return not more and not (wording[-1].isalpha() and said == {wording[-1]})
 
 
 def _own_words(words: frozenset[str], listed: list[frozenset[str]]) -> frozenset[str]:
@@ -208,7 +281,7 @@ def _stem(word: str) -> str:
     return short if len(short) >= LEAST_STEM else word
 
 
-_VERB_ENDING = re.compile(r"(?:ing|ed|e)$")
+_VERB_ENDING = re.compile(r"(?:ing|ed|ion|e)$")
 LEAST_STEM = 4
 """Letters that are left of a word whose ending does not matter."""
 
@@ -223,8 +296,17 @@ def _split_words(text: str) -> tuple[str, ...]:
     return tuple(word for word in folded if word and word not in _IDLE)
 
 
+_BANGLA = re.compile("[\u0980-\u09ff]")
+_BANGLA_ENDING = re.compile(
+    r"(?<=..)(?:টির|টার|টিতে|টাতে|টি|টা|টো|গুলোর|গুলির|গুলোকে|গুলো|গুলি|য়ের|ের|েই|কে|তে|র|ে|ই)$"
+)
+"""What a case, a number or a stress adds to a Bangla word."""
+
+
 def _fold(token: str) -> str:
     """Return a word without the ending of its plural and without spelling variants."""
+    if _BANGLA.match(token):
+        return _BANGLA_ENDING.sub("", token)
     if not token.isalpha():
         return token
     word = fold_word(token)

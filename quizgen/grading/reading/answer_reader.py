@@ -14,7 +14,8 @@ from functools import cache
 from typing import Literal, NamedTuple, TypeAlias
 
 from quizgen.core.errors import FormulaError
-from quizgen.grading.reading.factor_words import is_shrinking
+from quizgen.grading.reading.bound_values import bind_values
+from quizgen.grading.reading.factor_words import is_shrinking, read_factor
 from quizgen.grading.reading.joined_values import rejoin_values, repeat_value
 from quizgen.grading.reading.labels import NAME, AskedNames, find_name
 from quizgen.grading.reading.literals import LITERAL
@@ -54,6 +55,12 @@ _LIST_MARK = re.compile(r"^\(?[a-h]\) *(?=\S)")
 _ARROW = re.compile(r"^(?:∴|⇒|=>|→|->|>>>|≈|=) *(?=\S)")
 _SIGNED = re.compile(r"^(?:minus|negative|মাইনাস|ঋণাত্মক) +(?=\S)", re.IGNORECASE)
 _PER_CENT = re.compile(r"(?<=\d) *(?:per cent|percent|prozent|শতাংশ)(?!\w)", re.IGNORECASE)
+_SPOKEN_SHARE = re.compile(r" *(?:point|komma) [^\W\d_]+", re.IGNORECASE)
+"""A number that begins with its decimal sign in words; ``point`` is what some questions ask for."""
+_MODULUS = re.compile(r"(?<=[\d)]) ?% ?(?=\d+ ?(?:=|$))")
+_THOUSANDS = re.compile(r"(?<=\d)k(?!\w)")
+"""A thousand as in ``13.5k``; the unit of temperatures is a capital letter."""
+_SPOKEN_POINT = re.compile(r"(?<=\d) (?:point|komma|দশমিক) (?=\d)", re.IGNORECASE)
 _ORDINAL = re.compile(r"(?<=\d)(?:st|nd|rd|th|stel|tel)(?![^\W\d_])")
 _OF_A = re.compile(r"(?<=\d) (?:of|von) (?:an?|one|the|einer|einem|der)? ?(?=[^\W\d_])")
 _LETTERS = r"(?:[^\W\d_]|[\u0981-\u0983\u09bc\u09be-\u09cd\u09d7])"
@@ -128,6 +135,19 @@ def _load_around_words() -> _AroundWords:
 
 
 _NO_UNIT_BEFORE_A_WORD = frozenset({"in", "a", "as", "at", "am", "um", "d", "to", "so", "is"})
+_ROUNDING = re.compile(
+    r"[ ,(]+(?:rounded|gerundet) (?:to|auf) \w+ (?:significant |signifikante )?"
+    r"(?:decimal|digit|figure|place|stelle|nachkommastelle|ziffer)s?n?(?: places)?\)?$",
+    re.IGNORECASE,
+)
+_PLUS_MINUS = re.compile(r"^(?:±|\+/?[-−]) ?(?=[\d.])")
+"""Before a deviation, which is given without a sign."""
+_BECOMING = re.compile(
+    r"^([^\d]*(?:drop|fall|rise|wrap|goe|come|grow|change|sink|amount|shrink|increase|decrease|lead|"
+    r"saturate|clip|clamp|round)(?:s|ed|ped|es)?(?: (?:around|round|down|up|back|over|it))?) to (?=[-+−≈~]?[.,]?\d)",
+    re.IGNORECASE,
+)
+"""What tells where a value goes, ``it drops to 208``: ``to`` is no range then."""
 _CALLED = re.compile(r"[\w-]\(?$|-\s*$")
 """A call of a function, or a dash, right before a number."""
 _BETWEEN = re.compile(r"[\s\w.,:;\u0980-\u09ff-]*")
@@ -170,7 +190,7 @@ def list_plainer_texts(
     if plain != typed:
         yield plain
     if form in {"number", "quantity", "values"}:
-        spelt = _write_words_as_numbers(plain)
+        spelt = _write_words_as_numbers(typed if _SPOKEN_SHARE.match(typed) else plain)
         if form == "values":
             spelt = _write_items_as_numbers(spelt)
         if spelt != plain:
@@ -178,6 +198,7 @@ def list_plainer_texts(
         if form == "values":
             yield from separate_labelled_values(spelt, names)
             yield from rejoin_values(spelt, len(names), ranges=ranges)
+            yield from bind_values(spelt, names, scan_numbers)
         else:
             yield from _single_answer(spelt, form)
             yield from _find_conclusion(spelt)
@@ -185,7 +206,10 @@ def list_plainer_texts(
 
 def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
     """Yield the one number among words; a quantity needs its unit if words follow."""
-    named_by, text = text, _NAMED.sub("", text)
+    shown = _PLUS_MINUS.sub("", text)
+    if shown != text:
+        yield shown
+    named_by, text = text, _BECOMING.sub(r"\1 ", _ROUNDING.sub("", _NAMED.sub("", text)))
     if text != named_by:
         yield text
     remarked = _REMARKED.fullmatch(text)
@@ -251,6 +275,21 @@ def drop_bullets(typed: str) -> str:
     return _BULLET.sub("", typed)
 
 
+def drop_counting(typed: str) -> str:
+    """Return several values without the numbers that count them off: ``1: 141, 2: 56``."""
+    counted = list(_COUNTED.finditer(typed))
+    if len(counted) < _FEWEST or counted[0].start():
+        return typed
+    if [int(mark[1]) for mark in counted] != list(range(1, len(counted) + 1)):
+        return typed
+    ends = [*(mark.start() for mark in counted[1:]), len(typed)]
+    values = (typed[mark.end() : end] for mark, end in zip(counted, ends, strict=True))
+    return "; ".join(value.strip(" ,;\n") for value in values)
+
+
+_COUNTED = re.compile(r"(?:^|[,;\n] *| )\(?(\d)(?:[.)]|:(?=\s)) *(?=[-+−~≈]?[.,]?\d)(?<=[\s):])")
+
+
 def drop_markup(typed: str) -> str:
     """Return the answer without marks of Markdown and emoji."""
     text = _MARKDOWN.sub(lambda m: m[2] or m[3], _EMOJI.sub("", typed)) or typed
@@ -285,28 +324,52 @@ def _write_words_as_numbers(text: str) -> str:
     text = _UNDERSCORED.sub("", text)
     typed_array = _TYPED_NUMBER.fullmatch(text)
     text = typed_array[1] if typed_array else text
+    text = _write_share_of_unit(text)
     signed = _SIGNED.sub("", text)
     sign = "-" if signed != text and not signed.startswith(("-", "−", "–")) else ""
-    spelt = signed if sign else text
+    spelt = _SPOKEN_POINT.sub(".", _THOUSANDS.sub(" thousand", signed if sign else text))
     if not any(map(str.isdigit, spelt)):
         spelt = replace_number_word(spelt)
     if not any(map(str.isdigit, spelt)):
         spelt = replace_only_number_word(spelt)
     spelt = _OF_A.sub(" ", _ORDINAL.sub("", _PER_CENT.sub(" %", spelt)))
-    return sign + add_mixed_units(add_large_words(spelt))
+    return sign + add_mixed_units(add_large_words(_MODULUS.sub(" mod ", spelt)))
+
+
+def _write_share_of_unit(text: str) -> str:
+    """Return ``one thirtieth of a second`` as ``1/30 second``; the text itself if it is none."""
+    match = _SHARE_OF_UNIT.fullmatch(text)
+    share = read_factor(match[1]) if match else ""
+    return f"{share} {match[2]}" if match and "/" in share else text
+
+
+_SHARE_OF_UNIT = re.compile(
+    rf"([^\d,;.]+?) (?:(?:of|von|einer?|eines|of an?|of one) )+({_LETTERS}+)", re.IGNORECASE
+)
 
 
 def _write_items_as_numbers(text: str) -> str:
     """Return several values with those in words as digits, and without remarks in brackets."""
     text = _REMARK.sub(lambda m: m[0] if says_otherwise(m[0]) else "", text)
     pieces = _ITEMS.split(_MINUS.sub("-", text))
-    return "".join(replace_number_word(piece) if piece.isalpha() else piece for piece in pieces)
+    return "".join(map(_write_item_as_number, pieces))
 
 
-_REMARKED = re.compile(r"([-+−]?\d[^()]*?) ?\(([^\W\d][^()\d]*)\)")
+def _write_item_as_number(piece: str) -> str:
+    """Return one of several values with its number in digits, ``minus four`` as ``-4``."""
+    if any(map(str.isdigit, piece)):
+        return piece
+    plain = _SIGNED.sub("", piece)
+    spelt = replace_number_word(plain)
+    return piece if spelt == plain else f"{'-' if plain != piece else ''}{spelt}"
+
+
+_REMARKED = re.compile(
+    r"([-+−]?\d[^()]*?) ?\(([^\W\d][^()\d]*|(?:from |aus |\d+ ?%? (?:of|von) )[^()]*)\)"
+)
 _REMARK = re.compile(r"(?<=\d) ?\([^\W\d][^()\d;,]*\)")
 _MINUS = re.compile(r"(?<![^\W\d_])(?:minus|মাইনাস) (?=[.,]?\d)", re.IGNORECASE)
-_ITEMS = re.compile(r"([;,\n] *| and | und )")
+_ITEMS = re.compile(r"([;,\n] *| (?:and|und|ও|এবং) )")
 
 
 def separate_labelled_values(text: str, names: AskedNames) -> Iterator[str]:
@@ -314,6 +377,10 @@ def separate_labelled_values(text: str, names: AskedNames) -> Iterator[str]:
 
     Every label must mean a name of its own, and every value must be one number.
     """
+    written = _write_each_letter(_write_each_equal(text), names)
+    if written != text:
+        yield written
+    text = written
     ahead = [(m[1], m.start(), m.end()) for m in _LABEL.finditer(text)]
     if ahead and not ahead[0][1]:
         ends = [*(start for _, start, _ in ahead[1:]), len(text)]
@@ -325,6 +392,27 @@ def separate_labelled_values(text: str, names: AskedNames) -> Iterator[str]:
     pieces = [piece.strip() for piece in _PARTED.split(text)]
     pairs = [pair for piece in pieces for pair in _read_labelled_piece(piece)]
     yield from _write_assigned(pairs, names, len(pieces))
+
+
+def _write_each_equal(text: str) -> str:
+    """Return ``a = b = 5`` as ``a = 5; b = 5``."""
+    return _ALL_EQUAL.sub(lambda m: f"{m[1]} = {m[3]}; {m[2]} = {m[3]}", text)
+
+
+def _write_each_letter(text: str, names: AskedNames) -> str:
+    """Return ``RGB = 12, 24, 6`` with a letter before each value, if each means a name."""
+    match = _RUN_TOGETHER.fullmatch(text.strip())
+    if match is None or len(match[1]) != len(names):
+        return text
+    meant = [find_name(letter.lower(), names) for letter in match[1]]
+    values = [value for value in re.split(r"[;/|]|,(?!\d)| +(?=[-\d.])", match[2].strip(" ()[]")) if value.strip()]
+    if not all(meant) or len({*meant}) < len(meant) or len(values) != len(meant):
+        return text
+    return "; ".join(f"{name} = {value.strip()}" for name, value in zip(meant, values, strict=True))
+
+
+_ALL_EQUAL = re.compile(rf"({NAME}) ?= ?({NAME}) ?= ?([-+−]?\d[\d .,/]*\d|[-+−]?\d)")
+_RUN_TOGETHER = re.compile(r"([A-Za-z]{2,4}) ?[=:]? ?([-(\[]?[\d.].*)")
 
 
 def _read_labelled_piece(piece: str) -> Iterator[tuple[str, str]]:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import pairwise
 
 import msgspec
 from flint import fmpq
@@ -20,12 +21,14 @@ from quizgen.grading.reading.normalise import normalise_typed
 from quizgen.grading.reading.numbers import (
     Readings,
     ReadNumber,
+    map_readings,
     number_from_tree,
     read_number,
     read_plain_number,
     scale_number,
 )
 from quizgen.grading.reading.quantities import TypedQuantity, split_quantity
+from quizgen.grading.reading.quantity_formulas import read_quantity_formula
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.reading.units import TypedUnit, listed_unit, read_unit
 from quizgen.maths.notation import FormulaReadError
@@ -33,6 +36,8 @@ from quizgen.maths.units import format_unit
 from quizgen.maths.values import Value
 
 _EQUAL = re.compile(r" ?(?:=>|⇒|->|→|:=|==?|[≈≃≅≐∼~]) ?")
+_REST_OF_ALL = re.compile(r"(?<![\w.,])1 ?[-−–] ?(?=\d[\d.,]* ?%)")
+"""All but a percentage, ``1 - 68 %``."""
 _NAMED = re.compile(rf"{WORDS}: ?(?=\S)")
 _BRACKETS = re.compile(r"[\[{(]([^\[\]{}()]+)[\])}] ?(?=[^\W\d]|[%°])")
 _LETTER = re.compile(r"[^\W\d_]")
@@ -98,6 +103,7 @@ def read_sides(source: SourceText, decimal: str) -> list[EqualitySide]:
     plain = read_plain_side(source.text, decimal)
     if plain is not None:
         return [plain]
+    source = source.substitute(_REST_OF_ALL, lambda _m: "100 - ")
     try:
         return [_read_side(source, decimal)]
     except FormulaReadError as error:
@@ -133,6 +139,9 @@ def _iter_lenient_sides(source: SourceText, decimal: str) -> Iterator[EqualitySi
     Nothing is yielded where a side of digits alone, or the last one, cannot be read.
     """
     pieces = [piece for piece in _split_at_equal_signs(source) if piece.text]
+    if len(pieces) == 1 and (worked := read_quantity_formula(pieces[0], decimal)):
+        yield EqualitySide(TypedQuantity(pieces[0], worked[1]), worked[0])
+        return
     if len({piece.text for piece in pieces}) < len(pieces):
         return
     sides: list[EqualitySide] = []
@@ -200,9 +209,45 @@ def _check_sides_agree(source: SourceText, sides: list[EqualitySide]) -> None:
     FormulaReadError
         ``two-readings``.
     """
-    for side in sides[1:]:
-        if not _is_equal_side(sides[0], side):
+    for before, side in pairwise(sides):
+        alike = _is_equal_side(sides[0], side) or _is_rounded_to(source, before, side)
+        if not alike and not _is_equal_side(*_without_percent(sides[0], side)):
             raise FormulaReadError("sides-differ", source.column(0), source.text)
+
+
+def _is_rounded_to(source: SourceText, before: EqualitySide, side: EqualitySide) -> bool:
+    """Return whether a whole number behind an arrow or ≈ is the one before it, rounded: ``2.8 → 3``."""
+    whole = side is not before and side.readings.main.form == "integer"
+    if not whole or not _ROUNDED.search(source.text):
+        return False
+    (a, _), (b, _) = _convert_to_base_units(before), _convert_to_base_units(side)
+    unit = side.quantity.unit.factor if side.quantity.unit else fmpq(1)
+    return bool(2 * abs(a - b) <= unit)
+
+
+_ROUNDED = re.compile(r"(?:→|->|≈|=>|⇒) ?[-−]?\d+(?![.,]?\d)[^\d=]*$")
+
+
+def _without_percent(first: EqualitySide, second: EqualitySide) -> tuple[EqualitySide, EqualitySide]:
+    """Return two sides of which only one has a percent sign as plain numbers: ``100 - 68 = 32 %``."""
+    if _is_percent(first) == _is_percent(second):
+        return first, second
+    one, other = map(_drop_percent, (first, second))
+    return one, other
+
+
+def _is_percent(side: EqualitySide) -> bool:
+    """Return whether a side has a percent sign."""
+    unit = side.quantity.unit
+    return side.readings.main.percent or (unit is not None and unit.text == "%")
+
+
+def _drop_percent(side: EqualitySide) -> EqualitySide:
+    """Return a side without its percent sign; any other side as it is."""
+    if not _is_percent(side):
+        return side
+    plain = map_readings(side.readings, lambda n: msgspec.structs.replace(n, percent=False))
+    return EqualitySide(TypedQuantity(side.quantity.number, None), plain)
 
 
 def _is_equal_side(first: EqualitySide, second: EqualitySide) -> bool:

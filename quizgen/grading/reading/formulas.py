@@ -103,6 +103,8 @@ _NAMES, *_MARKS = FORMULA_REWRITES.values()
 
 _EULER = re.compile(r"(?:(?<![\w'])(\d{1,60})|(?<![^\W_]))e ?(?:\^|\*\*) ?(?=[(\w-])")
 """Not behind a letter, where ``e`` belongs to a name; digits before it are a factor."""
+_BARE_LOG = re.compile(r"(?<![^\W_])log(?![\w'])")
+_BASELESS = re.compile(rf"{_BARE_LOG.pattern}(?! ?\([^()]*,)")
 _ARGUMENTS = re.compile(rf"{MULTI_ARGUMENT} ?\([^()]*\d,\d")
 _POINTED = re.compile(r"\d\.\d+,(?!\d*\.\d*,)|,\d+\.\d|,\d*\.\d")
 """A comma beside a number with a decimal point: it can only stand between arguments."""
@@ -124,7 +126,12 @@ class TypedFormula(msgspec.Struct, frozen=True):
 
 
 def read_formula(
-    typed: str, symbols: Iterable[str], decimal: str = "auto", *, emphatic: bool = True
+    typed: str,
+    symbols: Iterable[str],
+    decimal: str = "auto",
+    *,
+    emphatic: bool = True,
+    log: str = "",
 ) -> TypedFormula:
     """Return a typed formula over declared names, with its other reading if it has two.
 
@@ -138,6 +145,8 @@ def read_formula(
         The learner's decimal sign.
     emphatic : bool
         Whether a ``!`` at the end is no factorial.
+    log : str
+        What ``log`` without a base means, such as ``ln``; without it, it is asked back.
 
     Raises
     ------
@@ -147,6 +156,8 @@ def read_formula(
     declared = frozenset(symbols)
     source = normalise_typed(typed, keep_x=bool(declared & {"x", "X"}))
     source = join_digit_groups(_right_side(source))
+    if log:
+        source = source.substitute(_BASELESS, lambda _: log)
     if _WORD.search(source.text):
         source = add_call_brackets(source.substitute(*_NAMES), declared)
     if _MARKED.search(source.text):
@@ -183,7 +194,7 @@ def _refuse_bare_log(source: SourceText, declared: frozenset[str]) -> None:
     FormulaReadError
         ``which-base``.
     """
-    match = re.search(r"(?<![^\W_])log(?![\w'])", source.text)
+    match = _BARE_LOG.search(source.text)
     if match and "log" not in declared:
         raise FormulaReadError("which-base", source.column(match.start()), "log")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from fractions import Fraction
-from functools import cache
+from functools import cache, lru_cache
 
 from quizgen.core.errors import FormulaError
 from quizgen.grading.reading.units import TypedUnit, read_unit
@@ -33,14 +33,6 @@ def list_number_words() -> dict[str, int]:
             words[f"{tens}-{one}"] = words[f"{tens} {one}"] = value + added
             words[f"{one.removesuffix('s') if one == 'eins' else one}und{tens}"] = value + added
     return words
-
-
-@cache
-def _compile_number_word_pattern() -> re.Pattern[str]:
-    """Return the pattern of a number word at the start of a text, of any language."""
-    longest_first = sorted(list_number_words(), key=len, reverse=True)
-    listed = "|".join(map(re.escape, longest_first))
-    return re.compile(rf"^(?:{listed})(?![\w\u0980-\u09ff])", re.IGNORECASE)
 
 
 _NUMBER = r"(\d+(?:\.\d+)?)"
@@ -72,38 +64,104 @@ _PIECE = re.compile(rf"{_NUMBER} ?((?:[^\W\d]|[\u0980-\u09ff])+)(?:,? (?:and|und
 
 def replace_number_word(text: str) -> str:
     """Return ``ten bits`` as ``10 bits``; the text itself if it begins with no number word."""
-    match = _compile_number_word_pattern().match(text)
-    if match is None:
-        return text
-    value, rest = list_number_words()[match[0].lower()], text[match.end() :]
-    hundreds = _HUNDRED.match(rest) if 0 < value < len("1234567890") else None
-    if hundreds:
-        value, rest = value * 100, rest[hundreds.end() :]
-        more = _compile_number_word_pattern().match(rest)
-        if more and list_number_words()[more[0].lower()] < 100:
-            value, rest = value + list_number_words()[more[0].lower()], rest[more.end() :]
+    found = _read_spoken_number(text)
+    return f"{found[0]}{text[found[1] :]}" if found else text
+
+
+_SPOKEN = re.compile(r" ?-?((?:[^\W\d_]|[\u0980-\u09ff])+)")
+_AND = frozenset({"and", "und", "ও"})
+_A = frozenset({"a", "one", "ein", "eine", "এক"})
+_AND_A_HALF = re.compile(r" and a half(?!\w)", re.IGNORECASE)
+_POINT = re.compile(r"(?:^| )(?:point|komma|দশমিক) (?=[^\W\d])", re.IGNORECASE)
+
+
+def _read_spoken_number(text: str) -> tuple[str, int] | None:
+    """Return the number in words at the start of a text as digits, and where its words end."""
+    value, end = _read_spoken_whole(text)
+    if value is None and not (_POINT.match(text) and " " not in text[:1]):
+        return None
+    digits, end = _read_spoken_decimals(text, end)
+    half = None if digits or value is None else _AND_A_HALF.match(text, end)
+    if half:
+        digits, end = ".5", half.end()
+    return (f"{value or 0}{digits}", end) if digits or value is not None else None
+
+
+def _read_spoken_whole(text: str) -> tuple[int | None, int]:
+    """Return the whole number in words at the start of a text, and where its words end.
+
+    A group below a thousand is read word by word; ``thousand`` and its like close it. What does
+    not go on with the number ends it: of ``six seven`` only the first is read.
+    """
+    closed, group, last = 0, None, 10**15
+    position = end = 0
+    while (match := _SPOKEN.match(text, position)) is not None:
+        word, position = match[1].lower(), match.end()
+        size, one = _list_multiples().get(word, 0), _find_spoken_word(word)
+        if word in _A and group is None and _is_multiple_next(text, position):
+            group = 1
+        elif size == HUNDRED and group and group < HUNDRED:
+            group *= HUNDRED
+        elif size > HUNDRED and size < last and group != 0:
+            closed, group, last = closed + (group or 1) * size, None, size
+        elif one is not None and (group is None or _goes_on(group, one)):
+            group = (group or 0) + one
+        elif word in _AND and end:
+            continue
         else:
-            rest = f" {rest}".rstrip()
-    digits, rest = _read_spoken_decimals(rest)
-    return f"{value}{digits}{rest}"
-
-
-_HUNDRED = re.compile(r" hundred(?: and)?(?: |$)", re.IGNORECASE)
-_POINT = re.compile(r" (?:point|komma|দশমিক) (?=[^\W\d])", re.IGNORECASE)
-
-
-def _read_spoken_decimals(rest: str) -> tuple[str, str]:
-    """Return the decimals of ``two point five six`` with their mark, and what follows them."""
-    point = _POINT.match(rest)
-    if point is None:
-        return "", rest
-    digits, left = "", rest[point.end() :]
-    while (word := _compile_number_word_pattern().match(left)) is not None:
-        digit = list_number_words()[word[0].lower()]
-        if digit >= len("0123456789"):
             break
-        digits, left = f"{digits}{digit}", left[word.end() :].lstrip(" ")
-    return (f".{digits}", f" {left}".rstrip()) if digits else ("", rest)
+        end = position
+    return (closed + (group or 0) if end else None), end
+
+
+HUNDRED = 100
+
+
+def _goes_on(group: int, one: int) -> bool:
+    """Return whether a word may follow in a group: ``seven`` after ``hundred`` or ``twenty``."""
+    if group >= HUNDRED and group % HUNDRED == 0:
+        return 0 < one < HUNDRED
+    return group % HUNDRED in range(20, 100, 10) and one in range(1, 10)
+
+
+def _is_multiple_next(text: str, position: int) -> bool:
+    """Return whether the next word multiplies, as after ``a`` in ``a hundred``."""
+    match = _SPOKEN.match(text, position)
+    return match is not None and match[1].lower() in _list_multiples()
+
+
+@lru_cache(maxsize=1024)
+def _find_spoken_word(word: str) -> int | None:
+    """Return the number of one word, also of a German compound; None if it is none."""
+    known = list_number_words().get(word)
+    if known is not None:
+        return known
+    for joint, size in (("tausend", 1000), ("hundert", HUNDRED)):
+        before, found, behind = word.partition(joint)
+        if not found:
+            continue
+        times = _find_spoken_word(before) if before else 1
+        rest = _find_spoken_word(behind.removeprefix("und")) if behind else 0
+        return None if times is None or rest is None else times * size + rest
+    return None
+
+
+def _read_spoken_decimals(text: str, position: int) -> tuple[str, int]:
+    """Return the decimals of ``two point five six`` with their mark, and where they end.
+
+    A number of two digits is read as they are: ``null Komma fünfundzwanzig``.
+    """
+    point = _POINT.match(text, position) if position else _POINT.match(text)
+    if point is None:
+        return "", position
+    digits, end, at = "", position, point.end()
+    while (match := _SPOKEN.match(text, at)) is not None:
+        one = _find_spoken_word(match[1].lower())
+        if one is None or one >= HUNDRED or (digits and one >= len("0123456789")):
+            break
+        digits, at = f"{digits}{one}", match.end()
+        end = at
+    return (f".{digits}", end) if digits else ("", position)
 
 
 def replace_only_number_word(text: str) -> str:
@@ -111,15 +169,20 @@ def replace_only_number_word(text: str) -> str:
 
     ``one`` and ``a`` are too often no number.
     """
-    words = [
-        match
-        for match in re.finditer(r"[^\W\d_]+(?:-[^\W\d_]+)?", text)
-        if list_number_words().get(match[0].lower(), 1) != 1
-    ]
-    if len(words) != 1 or not text[: words[0].start()].isascii():
+    found, position = [], 0
+    while (word := _SPOKEN_ANYWHERE.search(text, position)) is not None:
+        number = _read_spoken_number(text[word.start() :])
+        position = word.end()
+        if number and number[0] != "1":
+            position = word.start() + number[1]
+            found.append((word.start(), position, number[0]))
+    if len(found) != 1 or not text[: found[0][0]].isascii():
         return text
-    (only,) = words
-    return f"{text[: only.start()]}{list_number_words()[only[0].lower()]}{text[only.end() :]}"
+    ((start, end, digits),) = found
+    return f"{text[:start]}{digits}{text[end:]}"
+
+
+_SPOKEN_ANYWHERE = re.compile(r"(?<![\w\u0980-\u09ff])[^\W\d_](?:[^\W\d_]|[\u0980-\u09ff])*")
 
 
 def add_large_words(text: str) -> str:

@@ -120,6 +120,11 @@ WORDS = {
     "Kelvin": "K",
     "f/stop": "stop",
     "line pair": "lp",
+    "db": "dB",
+    "DB": "dB",
+    "Db": "dB",
+    "hz": "Hz",
+    "HZ": "Hz",
 }
 """Abbreviations and other spellings (any case when they are longer than three letters); what units
 are called in full stands in ``speech.toml`` of each language."""

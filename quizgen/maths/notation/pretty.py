@@ -166,12 +166,14 @@ _FORMULA = re.compile(
     r"|(?P<pi>(?<![^\W_])pi(?![\w']))"
     r"|(?P<name>[^\W\d_][^\W_]*['′]*(?:_[^\W_]+['′]*)*)"
     r"|\^(?:(?P<exponent>\d+)(?![\d.])|\{(?P<literal>-?\d+)/1\}|\((?P<inside>-\d+)\))"
-    r"|\{(?P<constant>[^{}]*)\}"
+    r"|\{(?P<constant>-?\d[\d./]*)\}"
     rf"|(?P<number>(?<![\d.{GAP}]){_DIGITS}(?:[eE][-+]?\d+)?)"
     r"|(?P<sign><=|>=|!=|\*|-)"
 )
 _DOUBLED = re.compile(r"\(\(([^()]+)\)\)")
 """Brackets in brackets, where a number stands alone in those of a function."""
+_ALONE = re.compile(rf"(?<=[=<>≤≥≠≈] )\(({MINUS}[^()]+)\)(?=$| [=<>≤≥≠≈])")
+"""A number with a sign that is a whole side."""
 _SPELLED = {"<=": "≤", ">=": "≥", "!=": "≠", "*": "·", "-": MINUS}
 
 
@@ -183,7 +185,7 @@ def format_formula(text: str) -> str:
     >>> format_formula("p'_x = -f*X/Z^2 <= 1e-5")
     'p′ₓ = −f·X/Z² ≤ 1·10⁻⁵'
     """
-    return _DOUBLED.sub(r"(\1)", _FORMULA.sub(_rewrite_match, text))
+    return _ALONE.sub(r"\1", _DOUBLED.sub(r"(\1)", _FORMULA.sub(_rewrite_match, text)))
 
 
 def format_constant(text: str) -> str:
@@ -209,7 +211,7 @@ def _rewrite_match(match: re.Match[str]) -> str:
 
 def _format_symbol(word: str) -> str:
     """Return a name as people write it; those of functions and words stay."""
-    return word if word in _KEPT else format_name(word)
+    return "∞" if word == "inf" else word if word in _KEPT else format_name(word)
 
 
 def _format_braced_constant(text: str) -> str:

@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from functools import lru_cache
 from typing import Any
 
+from msgspec.structs import replace
+
 from quizgen.bank.markdown import FIELD_MARK, Block, Emphasis, ListBlock, Paragraph, slot_names
 from quizgen.bank.rules import PART_LABELS
 from quizgen.bank.variant import Variant
@@ -116,7 +118,7 @@ def _build_asked_part(
         body,
         built.spec,
         solve_part(told, index, built),
-        built.control,
+        built.control if near is None else replace(built.control, boxes=()),
         _label_choices(hidden, built.options),
         _label_choices(hidden, built.targets),
         near,

@@ -24,7 +24,7 @@ from quizgen.kinds.asking import misconception_specs
 from quizgen.kinds.contract import AskedPart, asked_quantities
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.tree import Sym, names_in
-from quizgen.question.inlines import join_inlines, to_inlines, translate_inlines
+from quizgen.question.inlines import begin_sentence, join_inlines, to_inlines, translate_inlines
 from quizgen.question.interpolation import Interpolator
 from quizgen.question.levels import exam
 from quizgen.question.levels.choice_part import LevelOption, make_choice_part
@@ -229,7 +229,8 @@ class _Guide:
 
     def _build_strong_paragraph(self, key: str, **blanks: tuple[Inline, ...]) -> tuple[Block, ...]:
         """Return a sentence of the interface as a bold paragraph: it is what is asked."""
-        return (Paragraph((Emphasis("strong", translate_inlines(self.lang, key, **blanks)),)),)
+        said = begin_sentence(translate_inlines(self.lang, key, **blanks))
+        return (Paragraph((Emphasis("strong", said),)),)
 
     def _ask_step_value(self, stage: GuidedStage, step: ChainStep, place: int) -> LevelPart:
         """Return a part that asks for the value of one step.

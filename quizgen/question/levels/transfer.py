@@ -7,7 +7,7 @@ mistake makes of the steps.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 from functools import lru_cache
 
@@ -79,7 +79,10 @@ def ask(drawn: Variant, lang: str) -> LevelQuestion:
     order = shuffle(f"{level_seed(drawn)}/forms", range(len(made)))
     computed = [place for place in order if not made[place].options]
     ticked = [place for place in order if made[place].options]
-    kept = sorted([*computed, *(ticked[:1] if computed else ticked)][:count])
+    kept = [*computed, *(ticked[:1] if computed else ticked)][:count]
+    while len(kept) > min(count, 2) and _count_minutes(made, kept) > drawn.template.minutes:
+        kept.pop()  # no longer than the task itself, or a paper would not fit its time
+    kept.sort()
     weights = [Fraction(1 if made[place].options else COMPUTED) for place in kept]
     parts = tuple(
         _relabel_part(made[place], label, points)
@@ -92,8 +95,12 @@ def ask(drawn: Variant, lang: str) -> LevelQuestion:
         check=(), note=(), why=(), precision=(),
     )  # fmt: skip
     stem = (*_iter_task_blocks(drawn, lang, usual),)
-    minutes = sum((estimate_part_minutes(part, solved=False) for part in parts), READ_TASK)
-    return LevelQuestion(stem, parts, solution, minutes)
+    return LevelQuestion(stem, parts, solution, _count_minutes(made, kept))
+
+
+def _count_minutes(made: list[LevelPart], kept: Iterable[int]) -> Fraction:
+    """Return the minutes for reading the task and answering the parts at some places."""
+    return sum((estimate_part_minutes(made[place], solved=False) for place in kept), READ_TASK)
 
 
 def _relabel_part(part: LevelPart, label: str, points: Fraction) -> LevelPart:

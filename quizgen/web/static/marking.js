@@ -24,6 +24,7 @@
     form().querySelector(".dock .main").textContent = form().dataset.next.replace("{}", points);
   };
   const tick = (all) => { lines().forEach((one) => { one.checked = all && Number(one.dataset.points) > 0 && !one.value.endsWith("/half"); }); refresh(); };
+  document.addEventListener("focusin", (event) => { if (event.target.matches(".proposed")) { event.target.select(); } });
   document.addEventListener("input", refresh);
   document.addEventListener("htmx:after:swap", refresh);
   document.addEventListener("keydown", (event) => {
