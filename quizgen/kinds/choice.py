@@ -252,7 +252,7 @@ class ChoiceSpec(WordSpec, kw_only=True, frozen=True):
         return _format_options(self, self.correct)
 
     def show_in(self, lang: str, /) -> str:
-        """Return the same with the word for true or false in a language."""
+        """Return the key as `show` does, true and false by their words in a language."""
         return (
             translate(fallback_language(lang), f"ask.{self.show()}")
             if self.kind == "tf"
