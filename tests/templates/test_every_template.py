@@ -25,7 +25,7 @@ QUICKLY_COUNTED, MOST_COUNTED = 200, 60_000
 """Largest number of candidates that the default tests, and any tests, walk through for a pool."""
 
 
-@together("name", spread(NAMES, 16))
+@together("name", spread(NAMES, 8))
 def test_lint_finds_nothing(bank, name):
     report = lint_template(bank.template(name), SEEDS, bank.languages)
     assert report.problems == []
