@@ -8,7 +8,7 @@ from functools import partial
 import html5lib
 import pytest
 from keys import Keys
-from needed import installed
+from needed import find_chromium, installed
 from playwright.sync_api import expect
 from served import Served
 from sweep import sample
@@ -102,8 +102,9 @@ def evening(request, database, tmp_path, driver):
 
 def chromium():
     """What opens Chromium."""
-    path = installed("Chromium", "chromium", "google-chrome")
-    return lambda driver: driver.chromium.launch(executable_path=path, args=["--no-sandbox"])
+    return lambda driver: driver.chromium.launch(
+        executable_path=find_chromium(), args=["--no-sandbox"]
+    )
 
 
 def press_and_swap(student, button) -> None:
