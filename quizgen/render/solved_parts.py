@@ -84,7 +84,8 @@ def _typeset_listed(one: PaperPart) -> str:
 
 def _is_tall(markup: str) -> str:
     """Return ``true`` for markup with formulas higher than a line: the next one keeps off."""
-    return "true" if any(sign in markup for sign in ("frac(", "^(", "floor(", "ceil(")) else "false"
+    signs = ("frac(", "^(", "sqrt(", "floor(", "ceil(")
+    return "true" if any(sign in markup for sign in signs) else "false"
 
 
 def _count_columns(one: PaperPart, side: str) -> int:
