@@ -39,7 +39,7 @@ from quizgen.grading.reading.quantities import TypedQuantity
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.reading.units import TypedUnit, listed_unit
 from quizgen.grading.rounding import format_key
-from quizgen.grading.spec import ScalarSpec, is_large_count
+from quizgen.grading.spec import ScalarSpec, is_large_count, is_whole_number
 from quizgen.grading.verdict import Verdict, attach_values, unreadable, wrong
 from quizgen.kinds import quantity
 from quizgen.kinds.asking import (
