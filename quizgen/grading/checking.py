@@ -104,7 +104,9 @@ def _run_within_time(
     """Run a check in this process, for ``SECONDS`` at most where there is such a timer."""
     timed = hasattr(signal, "setitimer") and threading.current_thread() is threading.main_thread()
     try:
-        check = _load_check(source)[function]  # before the clock: an import that is cut stays broken
+        check = _load_check(source)[
+            function
+        ]  # before the clock: an import that is cut stays broken
         before = signal.signal(signal.SIGALRM, _end_check) if timed else None
         if timed:
             signal.setitimer(signal.ITIMER_REAL, SECONDS)

@@ -80,6 +80,8 @@ def step_sides(drawn: Variant, step: ChainStep) -> tuple[WorkedSide, ...]:
     if names_in(expr):
         sides.append(_substitute_numbers(drawn, expr))
     values = _build_value_sides(drawn, step, about=sides[-1].sign == "≈")
+    if values and isinstance(expr, Sym):  # the number put in is the value already
+        return (sides[0], *values)
     sides += [side for side in values if side.typed != sides[-1].typed]
     return tuple(sides)
 

@@ -6,8 +6,7 @@ mean above the dark level is the gain.
 
 from sympy import evaluate, sqrt, symbols
 
-from quizgen.maths.lists import len as count
-from quizgen.maths.lists import mean, var
+from quizgen.maths.lists import mean, pvar, var
 from quizgen.maths.model import Model, Step
 
 x, b, v_d = symbols("x b v_d", positive=True)
@@ -25,7 +24,7 @@ with evaluate(False):
             Step(K, (v - v_d) / S),
         ),
         traps={
-            "by-n": Step(v, var(x) * (count(x) - 1) / count(x)),
+            "by-n": Step(v, pvar(x)),
             "variance-for-deviation": Step(s, v),
             "dark-level-left": Step(S, m),
             "dark-level-added": Step(S, m + b),

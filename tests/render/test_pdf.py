@@ -82,7 +82,7 @@ def test_english_papers_carry_no_bangla_font(bank):
 @pytest.mark.parametrize(("lang", "said"), [("en", "1 Question"), ("bn", "1 প্রশ্ন")])
 def test_one_question_is_counted_as_one(bank, lang, said):
     paper = single_question_paper(bank.template("point-to-image-plane"), 0, lang)
-    assert f', {said}"' in pdf._TypstPaper(paper, "exam").source()
+    assert f", {said}. " in pdf._TypstPaper(paper, "exam").source()
 
 
 def test_a_field_in_a_sentence_stands_once_on_a_bilingual_paper(bank, tmp_path):

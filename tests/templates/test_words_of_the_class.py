@@ -33,7 +33,7 @@ def test_terms_stand_in_one_spelling():
     files = [*bank.glob("*/*/bn.md"), *bank.glob("cards/*.toml"), *bank.glob("quantities/*.toml")]
     found = [
         f"{file.relative_to(bank)}:{number}: {hit[0]}"
-        for file in [*files, bank / "figures" / "bn.toml"]
+        for file in [*files, bank / "figures" / "bn.toml", bank / "curriculum.toml"]
         for number, line in lines_that_are_read(file)
         if (hit := wrong.search(line))
     ]

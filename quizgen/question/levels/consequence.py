@@ -24,6 +24,7 @@ from quizgen.maths.numbers import (
     to_rational,
 )
 from quizgen.maths.tree import Call, Num, Sym
+from quizgen.maths.units import format_unit
 from quizgen.maths.values import Value
 from quizgen.question.inlines import TypesetMaths, to_inlines, translate_inlines
 from quizgen.question.interpolation import NBSP, Interpolator, inlines_to_text, join_unit
@@ -42,7 +43,7 @@ from quizgen.question.solution import (
     solution_step,
     solved_misconceptions,
 )
-from quizgen.question.worked_steps import quantity_inlines, value_node, value_typed
+from quizgen.question.worked_steps import quantity_inlines
 
 
 @dataclass(frozen=True)
@@ -215,10 +216,13 @@ def _iter_proof_lines(change: Perturbation, found: Fraction, lang: str) -> Itera
 def _typeset_ratio(change: Perturbation, found: Fraction) -> TypesetMaths:
     """Return the new value over the old one, typeset."""
     draws = {"new": change.changed, "old": change.drawn}
-    leaves = {name: value_node(draw, change.target) for name, draw in draws.items()}
-    typed = {name: value_typed(draw, change.target) for name, draw in draws.items()}
+    values = {name: draw.shown_values[change.target] for name, draw in draws.items()}
+    unit = format_unit(change.drawn.template.units[change.target])
+    texts = {name: _format_decimal(value) for name, value in values.items()}
+    leaves = {name: typeset.quantity(text, unit) for name, text in texts.items()}
+    typed = {name: f"({join_unit(text, unit)})" if unit else text for name, text in texts.items()}
     quotient, text = Call("div", (Sym("new"), Sym("old"))), _format_number(to_rational(found))
-    sign = "≈" if any(draw.is_rounded(change.target) for draw in draws.values()) else "="
+    sign = "=" if all(map(is_short_decimal, values.values())) else "≈"
     node = typeset.relation_chain(
         [sign], [typeset.lay_out(quotient, leaves=leaves), typeset.number(text)]
     )
@@ -230,12 +234,16 @@ def _format_number(value: Value) -> str:
     return format_exact(value) or format_rounded(value)
 
 
+def _format_decimal(value: Value) -> str:
+    """Return a number as a decimal: exact if it is short, else rounded."""
+    return (format_exact(value) if is_short_decimal(value) else None) or format_rounded(value)
+
+
 def value_inlines(drawn: Variant, name: str) -> tuple[Inline, ...]:
     """Return a quantity's value with its unit, with ≈ in front where it is rounded."""
     value, unit = drawn.shown_values[name], drawn.template.units[name]
-    exactly = format_exact(value) if is_short_decimal(value) else None
-    text = join_unit(exactly or format_rounded(value), unit)
-    return to_inlines(text if exactly else f"≈{NBSP}{text}")
+    text = join_unit(_format_decimal(value), unit)
+    return to_inlines(text if is_short_decimal(value) else f"≈{NBSP}{text}")
 
 
 def _ask_new_value(change: Perturbation, lang: str) -> LevelPart:
