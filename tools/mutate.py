@@ -308,6 +308,7 @@ def main() -> int:
     folder, out = Path(tempfile.mkdtemp(prefix="mutate-")), args.out.resolve()
     table = args.again.read_text("utf-8") if args.again else ""
     again = {tuple(line.split("\t")[:4]) for line in table.splitlines()}
+    commit = subprocess.run(["git", "rev-parse", "HEAD"], capture_output=True, check=True).stdout
     archive = subprocess.run(["git", "archive", "HEAD"], capture_output=True, check=True).stdout
     with tarfile.open(fileobj=io.BytesIO(archive)) as tree:
         tree.extractall(folder, filter="data")
@@ -319,7 +320,6 @@ def main() -> int:
     mutants = write_switches(folder, args.each, args.seed)
     if args.again:
         mutants = {n: one for n, one in mutants.items() if ("SURVIVED", *one.row) in again}
-    commit = subprocess.run(["git", "rev-parse", "HEAD"], capture_output=True, check=True).stdout
     runner = Runner(mutants, out, (commit, args.each, args.seed, args.tests))
     options = ["-n", "0", "-s", "-p", "no:cacheprovider", "--basetemp", str(folder / "tmp")]
     pytest.main([*options, *args.tests.split()], [runner])
