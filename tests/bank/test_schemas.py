@@ -168,6 +168,7 @@ OF_MULTI = {"choice": {"negative"}, "tf": {"negative", "options"}}
 """What these kinds share with ``multi`` in marking, and do not have."""
 MADE = {
     "accept",
+    "said",
     "kind",
     "notes",
     "why",

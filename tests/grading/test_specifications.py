@@ -28,6 +28,7 @@ FULL = [
      "value": "20/3", "traps": {"half": "10/3", "two": ["1", "2"]}, "notes": NOTES, "of": ["x"],
      "form": "decimal", "percent": True, "notation": "f-number"},
     {"kind": "number", "sigfigs": 3, "value": "5", "unit": "px"},
+    {"kind": "number", "value": "5", "base": 2},
     {"kind": "number", "value": "5", "counts": ["px", "level"]},
     {"kind": "quantity", "bound": "most", "rel": "0.005", "value": "50", "unit": "mm", "bare": True,
      "traps": {"half": "25"}, "notes": NOTES, "of": ["f"]},
