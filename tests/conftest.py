@@ -12,7 +12,7 @@ from itertools import islice
 from pathlib import Path
 
 import pytest
-from needed import installed
+from needed import find_chromium, installed
 
 from quizgen.bank.bank import Bank, builtin_bank
 from quizgen.core import cache
@@ -135,7 +135,7 @@ def empty_cache(tmp_path, monkeypatch):
 
 @pytest.fixture(scope="session")
 def chromium():
-    return installed("Chromium", "chromium", "google-chrome")
+    return find_chromium()
 
 
 @pytest.fixture(scope="session")

@@ -41,6 +41,12 @@ def spread(items: Iterable[Any], usual: int, slow: int | None = None) -> list[An
     ]
 
 
+def sample(items: Iterable[Any], usual: int) -> list[Any]:
+    """Return so many of the items, spread evenly; all of them where all are asked for."""
+    every = list(items)
+    return every if IS_FULL else [every[place] for place in sorted(_choose(len(every), usual))]
+
+
 def _choose(count: int, wanted: int) -> set[int]:
     """Places spread evenly over so many."""
     return {place * count // wanted for place in range(wanted)}

@@ -140,6 +140,7 @@ def test_the_doctor_lists_the_extras_that_are_there(tmp_path):
     assert f"ok  extras: {extras}\n" in done.stdout
 
 
+@pytest.mark.slow
 def test_commands_work_without_extras(tmp_path):
     """In one process, where nothing of an extra can be imported."""
     commands = WITHOUT_EXTRAS.strip().splitlines()

@@ -19,6 +19,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 
 import measure  # noqa: E402
 
+pytestmark = pytest.mark.slow  # all of the source is parsed
 FILES = [
     p
     for folder in ("quizgen", "solvers", "templates")

@@ -9,8 +9,10 @@ from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
 
+import pytest
 from sources import nodes
 
+pytestmark = pytest.mark.slow  # all of the source is parsed, processes are started
 ROOT = Path(__file__).parent.parent
 PACKAGE = ROOT / "quizgen"
 

@@ -6,57 +6,65 @@ import hashlib
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
 from quizgen.core.errors import RenderError
 from quizgen.core.files import STALE, write_all
 
-KILLED = """
-import os, signal, sys
-from pathlib import Path
-from quizgen.core.files import write_all
-left = int(sys.argv[2])
-def dying(name):
-    before = getattr(Path, name)
-    def step(self, *arguments, **options):
-        global left
-        if left == 0:
-            os.kill(os.getpid(), signal.SIGKILL)
-        left -= 1
-        return before(self, *arguments, **options)
-    setattr(Path, name, step)
-for name in ("rename", "replace", "unlink", "mkdir", "open"):
-    dying(name)
-write_all(Path(sys.argv[1]), {"a.html": b"new", "media/b.svg": b"new", "key.json": b"new"})
-"""
+CALLS = [(os, "rename"), (os, "replace"), (os, "unlink")]
+"""What others see of a set that is being written: the moments to be killed at."""
+INSIDE = [*CALLS, (Path, "mkdir"), (Path, "open")]
+forks = pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
 NAMES = ("a.html", "media/b.svg", "key.json")
 
 
-def killed(folder, step: int) -> bool:
-    done = subprocess.run([sys.executable, "-c", KILLED, str(folder), str(step)], check=False)
-    return done.returncode != 0
+def killed_at(step: int, folder, contents, calls=CALLS) -> bool:
+    """Write in a process that ends, as by kill -9, at one of the calls."""
+    left = step
+
+    def dying(call):
+        def counted(*arguments, **options):
+            nonlocal left
+            if left == 0:
+                os._exit(9)
+            left -= 1
+            return call(*arguments, **options)
+
+        return counted
+
+    child = os.fork()
+    if child == 0:
+        for owner, name in calls:
+            setattr(owner, name, dying(getattr(owner, name)))
+        write_all(folder, contents)
+        os._exit(0)
+    return os.waitpid(child, 0)[1] != 0
 
 
 def found(folder) -> dict[str, bytes]:
     return {name: (folder / name).read_bytes() for name in NAMES if (folder / name).exists()}
 
 
+@forks
 def test_a_new_folder_appears_whole_wherever_the_run_is_killed(tmp_path):
     steps = 0
-    while killed(tmp_path / str(steps), steps):
-        assert found(tmp_path / str(steps)) in ({}, dict.fromkeys(NAMES, b"new"))
+    new = dict.fromkeys(NAMES, b"new")
+    while killed_at(steps, tmp_path / str(steps), new, INSIDE):
+        assert found(tmp_path / str(steps)) in ({}, new)
         steps += 1
     assert steps > 6
-    assert found(tmp_path / str(steps)) == dict.fromkeys(NAMES, b"new")
+    assert found(tmp_path / str(steps)) == new
 
 
+@forks
 def test_the_last_file_never_stands_beside_others_of_another_set(tmp_path):
     steps = 0
     while True:
         folder = tmp_path / str(steps)
         write_all(folder, dict.fromkeys(NAMES, b"old"))
-        if not killed(folder, steps):
+        if not killed_at(steps, folder, dict.fromkeys(NAMES, b"new"), INSIDE):
             break
         now = found(folder)
         assert "key.json" not in now or len({*now.values()}) == 1
@@ -142,29 +150,6 @@ def kept(folder) -> dict[str, bytes]:
     return {name: path.read_bytes() for path, name in names.items() if ".part" not in name}
 
 
-def killed_at(step: int, folder, contents) -> bool:
-    """Write in a process that ends, as by kill -9, at a step that others see."""
-    left = step
-
-    def dying(call):
-        def counted(*arguments, **options):
-            nonlocal left
-            if left == 0:
-                os._exit(9)
-            left -= 1
-            return call(*arguments, **options)
-
-        return counted
-
-    child = os.fork()
-    if child == 0:
-        for name in ("rename", "replace", "unlink"):
-            setattr(os, name, dying(getattr(os, name)))
-        write_all(folder, contents)
-        os._exit(0)
-    return os.waitpid(child, 0)[1] != 0
-
-
 SETS = {
     "key.json": ["exam", "--blueprint", "sensor.10", "--seed", "1", "--format", "html"],
     "quizgen.csv": ["cards", "--kind", "figure", "--topic", "distortion", "--format", "tsv,csv"],
@@ -173,7 +158,7 @@ SETS = {
 """Last file of a set to the command that writes it."""
 
 
-@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
+@forks
 @pytest.mark.parametrize("seal", SETS)
 def test_a_command_killed_between_two_renames_leaves_a_whole_set_or_none(
     tmp_path, monkeypatch, seal

@@ -54,9 +54,11 @@ before `with evaluate(False)` what needs evaluation, or leave `evaluate` out.
 
 A step is a **form** and no number if its formula holds a name of `free` (`Model(free=("x",),
 ...)`), or is a complex number, a `Matrix`, an `Interval`, a `Union`, a `FiniteSet` or an `Eq`.
-Later steps see it in place: `Step(f, a*x**2)` with `f = Function("f")(x)`, then `Step(df, diff(f,
-x))` and `Step(D, df.subs(x, c))`; `A = MatrixSymbol("A", 2, 2)`, then `Step(d, det(A))`. In words
-`{{{{ f }}}}` prints it with the drawn numbers, and `of = "df"` asks for it.
+Drawn numbers are put in and like terms put together, so that
+`expand((x - p)*(x - q))` prints as x² - 5x + 6. Later steps see it in place: `Step(f, a*x**2)`
+with `f = Function("f")(x)`, then `Step(df, diff(f, x))` and `Step(D, df.subs(x, c))`;
+`A = MatrixSymbol("A", 2, 2)`, then `Step(d, det(A))`. In words `{{{{ f }}}}` prints it with the
+drawn numbers, and `of = "df"` asks for it.
 
 Next: [Units](units.md)
 """

@@ -1,7 +1,8 @@
 """Print the figures that the house is held to: names, lengths of functions, parameters typed Any.
 
 A function's name is a verb and a noun: at most 45 % are one word, at most 3 % a single past
-participle (``told``), and no public function or class of the package stands twice.
+participle (``told``), and no public function or class of the package stands twice. A docstring
+names parameters and their classes as the signature does.
 
 Run: ``uv run python tools/measure.py [folder ...]`` (default: quizgen solvers templates).
 """
@@ -83,6 +84,25 @@ def find_faults_of_names(trees: dict[Path, ast.Module]) -> list[str]:
     ]
 
 
+DOCUMENTED = re.compile(r"^Parameters\n-+\n((?:.+\n|\n(?! *\w+\n *-))*)", re.MULTILINE)
+
+
+def find_stale_docstrings(path: Path, tree: ast.AST) -> Iterator[str]:
+    """Yield parameters, and classes of them, that a docstring names and the signature does not."""
+    for function in functions(tree):
+        notes = {a.arg: ast.unparse(a.annotation or a) for a in parameters(function)}
+        listed = DOCUMENTED.search((ast.get_docstring(function) or "") + "\n")
+        for line in listed[1].splitlines() if listed else ():
+            names, _, kind = line.partition(" : ")
+            for name in () if line.startswith(" ") or not line else names.split(", "):
+                note = notes.get(name.strip("* "), "")
+                other = [
+                    w for w in re.findall(r"\b[A-Z]\w+", kind) if w not in re.findall(r"\w+", note)
+                ]
+                if not note or (other and note not in {"Any", "None"}):
+                    yield f"{path}: {function.name}: its docstring says {line!r}"
+
+
 def main(folders: list[str]) -> int:
     """Print the figures of all modules below the folders; return 1 if names exceed the limits."""
     paths = sorted(p for folder in folders for p in Path(folder).rglob("*.py"))
@@ -99,6 +119,7 @@ def main(folders: list[str]) -> int:
     print(f"parameters typed Any: {sum(anys.values())} of {total} ({share:.1%})")
     print("  " + ", ".join(f"{name} {count}" for name, count in anys.most_common() if count))
     faults = find_faults_of_names({p: t for p, t in trees.items() if p.parts[0] == "quizgen"})
+    faults += [fault for path, tree in trees.items() for fault in find_stale_docstrings(path, tree)]
     print(*faults, sep="\n")
     return 1 if faults else 0
 

@@ -1,18 +1,21 @@
 """Change one place of the code at a time, and see whether a test notices.
 
 Run: ``nice uv run python tools/mutate.py`` (half an hour of CPU for 300). In a copy of what is
-committed, each place gets a switch between the text and its mutant; the tests run once, which says
-who meets which switch; then each mutant meets those tests in a process of its own, the quickest
-first, until one fails. ``mutants.tsv`` lists all: ``killed``, ``hung`` or ``SURVIVED``.
+committed, each place gets a switch between the text and its mutant; every file of tests runs once,
+which says who meets which switch; then each mutant meets those tests in a process of its own, the
+quickest first, until one fails that passes without it. ``mutants.tsv`` lists all: ``killed``,
+``hung`` or ``SURVIVED``; ``--again mutants.tsv`` tries only the last once more.
 """
 
 from __future__ import annotations
 
 import argparse
 import ast
+import contextlib
 import gc
 import importlib
 import io
+import itertools
 import os
 import pickle
 import pkgutil
@@ -24,16 +27,14 @@ import sys
 import tarfile
 import tempfile
 import time
-from collections import defaultdict
 from collections.abc import Callable, Iterator
 from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
 ROOMS = ("grading", "kinds", "bank", "paper", "classes", "web")
-FEWEST, MOST, SECONDS, PATIENCE = 20, 200, 40.0, 150.0
-"""Tests that a mutant meets at least and at most, how long beyond the fewest, when it hangs."""
-CACHED = type(cache(int))
+SECONDS, PATIENCE = 8.0, 900.0
+"""Of CPU, how much in tests one mutant meets; of a clock, after how much it hangs."""
 SWAPS: dict[type, type] = {
     ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt, ast.Eq: ast.NotEq,
     ast.NotEq: ast.Eq, ast.In: ast.NotIn, ast.NotIn: ast.In, ast.Is: ast.IsNot, ast.IsNot: ast.Is,
@@ -41,13 +42,16 @@ SWAPS: dict[type, type] = {
     ast.FloorDiv: ast.Mult, ast.Pow: ast.Mult, ast.And: ast.Or, ast.Or: ast.And,
     ast.BitAnd: ast.BitOr, ast.BitOr: ast.BitAnd,
 }  # fmt: skip
-SWITCH = """import os
-HITS, active = set(), int(os.environ.get("MUTANT", "-1"))
+SWITCH = """import contextlib, os
+SEEN, HITS, active = set(), os.environ.get("MUTANT_HITS"), int(os.environ.get("MUTANT", "-1"))
 def on(number):
-    HITS.add(number)
+    if HITS and number not in SEEN:
+        SEEN.add(number)
+        with contextlib.suppress(OSError):
+            open(f"{HITS}/{number}", "w").close()
     return number == active
 """
-"""What the copy imports: processes that a test starts know the mutant, too."""
+"""What the copy imports: processes that a test starts know the mutant and tell that they met it."""
 ON = "__import__('mutant_switch').on({number})"
 
 
@@ -60,6 +64,11 @@ class Mutant(NamedTuple):
     end: int
     old: str
     new: str
+
+    @property
+    def row(self) -> tuple[str, str, str]:
+        """The file and both texts on one line each, as a table has them."""
+        return self.file, " ".join(self.old.split()), " ".join(self.new.split())
 
     def switch(self, number: int) -> str:
         """Return the text that stands for both."""
@@ -111,7 +120,8 @@ def iter_mutants(path: Path) -> Iterator[Mutant]:
         end = starts[node.end_lineno - 1] + node.end_col_offset
         return Mutant(str(path), node.lineno, start, end, text[start:end].decode(), new)
 
-    functions = (f for f in ast.walk(ast.parse(text)) if isinstance(f, ast.FunctionDef))
+    kinds = ast.FunctionDef | ast.AsyncFunctionDef
+    functions = (f for f in ast.walk(ast.parse(text)) if isinstance(f, kinds))
     for node in {n: 0 for f in functions for part in f.body for n in _walk(part)}:
         other = _swap(node)
         if other is not None:
@@ -124,127 +134,147 @@ def iter_mutants(path: Path) -> Iterator[Mutant]:
                 yield make(node, "pass")
 
 
-def write_switches(folder: Path, each: int, seed: int) -> list[Mutant]:
+def write_switches(folder: Path, each: int, seed: int) -> dict[int, Mutant]:
     """Choose mutants of every room, and write their switches into a copy of the code."""
-    chosen: list[Mutant] = []
-    for room in ROOMS:
-        every = [
-            m for path in sorted(Path("quizgen", room).rglob("*.py")) for m in iter_mutants(path)
-        ]
+    chosen: dict[int, Mutant] = {}
+    for start, room in enumerate(ROOMS):  # rooms take turns: a run can be cut short
+        files = sorted(Path("quizgen", room).rglob("*.py"))
+        every = [one for path in files for one in iter_mutants(path)]
         random.Random(f"{seed}{room}").shuffle(every)  # noqa: S311
         mine: list[Mutant] = []
         for one in every:
             apart = (one.file != m.file or one.end <= m.start or m.end <= one.start for m in mine)
-            if len(mine) < each and all(apart):
+            if len(mine) < each and one.new != one.old and all(apart):
                 mine.append(one)
-        chosen += mine
-    for number, one in sorted(enumerate(chosen), key=lambda pair: -pair[1].start):
+        chosen |= {start + len(ROOMS) * turn: one for turn, one in enumerate(mine)}
+    for number, one in sorted(chosen.items(), key=lambda pair: -pair[1].start):
         path = folder / one.file
         text = path.read_bytes()
         path.write_bytes(text[: one.start] + one.switch(number).encode() + text[one.end :])
     (folder / "mutant_switch.py").write_text(SWITCH, "utf-8")
-    return chosen
+    return dict(sorted(chosen.items()))
 
 
 class Runner:
     """A pytest plugin that runs the tests for every mutant instead of once."""
 
-    def __init__(self, mutants: list[Mutant], out: Path) -> None:
-        self.mutants, self.out = mutants, out
-        self.seconds: dict[str, float] = defaultdict(float)
-        self.failed: set[str] = set()
-        self.sound: set[Any] = set()
+    def __init__(self, mutants: dict[int, Mutant], out: Path, key: object) -> None:
+        self.mutants, self.out, self.key, self.failed = mutants, out, key, False
+        self.meets: dict[str, set[int]] = {}
+        self.seconds: dict[str, float] = {}
 
     def pytest_runtest_logreport(self, report: Any) -> None:
-        """Remember how long a test takes, and whether it fails."""
-        self.seconds[report.nodeid] += report.duration
-        if report.failed:
-            self.failed.add(report.nodeid)
+        """Remember whether a test fails."""
+        self.failed |= report.failed
 
     def pytest_runtestloop(self, session: Any) -> bool:
-        """Find who meets which mutant, then try each."""
-        import mutant_switch  # type: ignore[import-not-found]
-
-        import_all_modules()
-        found = Path("tests.pickle")
-        run_child(lambda: self._map(session.items, mutant_switch, found), 1e5)
-        meets, seconds = pickle.loads(found.read_bytes())  # noqa: S301 - written just now
-        each = len(self.mutants) // len(ROOMS)
-        with self.out.open("w", encoding="utf-8", buffering=1) as table:
-            for number in sorted(range(len(self.mutants)), key=lambda n: n % each):  # rooms in turn
-                mutant = self.mutants[number]
-                tests = [t for t in session.items if number in meets.get(t.nodeid, ())]
-                near = choose_tests(tests, seconds)
-                result = self._find_result(near, mutant_switch, number)
-                place = f"{mutant.file}:{mutant.line}"
-                row = (result, place, mutant.old, mutant.new, len(near))
-                print(*(" ".join(str(one).split()) for one in row), sep="\t", file=table)
+        """Find who meets which mutant, then try each; go on where a run of the same was cut off."""
+        forget_all()
+        kept, found = self.out.with_suffix(".pickle"), Path("found.pickle")
+        files: dict[str, tuple[dict[str, set[int]], dict[str, float]]] = {}
+        if kept.exists():
+            key, files = pickle.loads(kept.read_bytes())  # noqa: S301 - this tool's own
+            files = files if key == self.key else {}
+        if not files:
+            self.out.unlink(missing_ok=True)
+        for path, items in itertools.groupby(session.items, key=lambda one: one.path.name):
+            if path not in files:
+                found.write_bytes(pickle.dumps(({}, {})))
+                run_child(partial(self._map, [*items], found))
+                files[path] = pickle.loads(found.read_bytes())  # noqa: S301
+                kept.write_bytes(pickle.dumps((self.key, files)))
+            self.meets |= files[path][0]
+            self.seconds |= files[path][1]
+        with self.out.open("a+", encoding="utf-8", buffering=1) as table:
+            table.seek(0)
+            done = {tuple(line.split("\t")[1:4]) for line in table}
+            for number, mutant in self.mutants.items():
+                all_met = [t for t in session.items if number in self.meets.get(t.nodeid, ())]
+                near = self._choose(all_met)
+                if mutant.row not in done:
+                    result, killer = self._find_result(near, number)
+                    met = f"{len(near)} of {len(all_met)}"
+                    print(result, *mutant.row, mutant.line, met, killer, sep="\t", file=table)
         return True
 
-    def _find_result(self, items: list[Any], switch: Any, number: int) -> str:
-        """Return how a mutant ends; a test that fails here without it, too, says nothing."""
-        while True:
-            code = run_child(partial(self._try, items, switch, number), PATIENCE)
-            if not 0 < code <= len(items):
-                return {0: "SURVIVED", -1: "hung"}.get(code, "killed")
-            one = items[code - 1]
-            if one in self.sound or not run_child(partial(self._try, [one], switch, -1), PATIENCE):
-                self.sound.add(one)
-                return "killed"
-            items = [item for item in items if item is not one]
+    def _choose(self, items: list[Any]) -> list[Any]:
+        """Return the quickest tests, as far as there is time."""
+        items = sorted(items, key=lambda one: self.seconds[one.nodeid])
+        spent = itertools.accumulate(self.seconds[one.nodeid] for one in items)
+        chosen = [one for one, until in zip(items, spent, strict=True) if until < SECONDS]
+        return chosen or items[:1]
 
-    def _map(self, items: list[Any], switch: Any, found: Path) -> int:
-        """Run all tests, and keep in a file which mutants those that pass meet."""
-        meets: dict[str, set[int]] = {}
+    def _map(self, items: list[Any], found: Path) -> int:
+        """Run the tests of a file; keep which mutants those that pass meet, and their CPU time."""
+        meets, seconds = dict[str, set[int]](), dict[str, float]()
+        import mutant_switch  # type: ignore[import-not-found]
+
+        hits = Path(mutant_switch.HITS)
         for item, following in zip(items, [*items[1:], None], strict=True):
-            switch.HITS.clear()
+            before, self.failed = sum(os.times()[:4]), False
+            mutant_switch.SEEN.clear()
             item.config.hook.pytest_runtest_protocol(item=item, nextitem=following)
-            if item.nodeid not in self.failed:
-                meets[item.nodeid] = set(switch.HITS)
-        found.write_bytes(pickle.dumps((meets, dict(self.seconds))))
+            met = {int(one.name) for one in hits.iterdir()}
+            for number in met:
+                (hits / str(number)).unlink()
+            if not self.failed:
+                meets[item.nodeid] = met
+                seconds[item.nodeid] = sum(os.times()[:4]) - before
+        found.write_bytes(pickle.dumps((meets, seconds)))
         return 0
 
-    def _try(self, items: list[Any], switch: Any, number: int) -> int:
-        """Run tests up to the first that fails, and return which that is, from 1; 0 if none does.
+    def _find_result(self, items: list[Any], number: int) -> tuple[str, str]:
+        """Return how a mutant ends, and by which test; one that fails without it says nothing."""
+        while True:
+            place = Path("place")
+            place.write_text("0")
+            code = run_child(partial(self._try, items, number, place))
+            at = int(place.read_text())
+            if not code:
+                return "SURVIVED", ""
+            if code in {-signal.SIGPROF, -signal.SIGKILL}:
+                return "hung", items[at].nodeid
+            if not run_child(partial(self._try, items[: at + 1], -1, place)):
+                return "killed", items[at].nodeid
+            items = [*items[:at], *items[at + 1 :]]
 
-        For a mutant of the bank nothing is taken from a cache.
+    def _try(self, items: list[Any], number: int, place: Path) -> int:
+        """Run tests up to the first that fails; write down at which this is.
+
+        What bank and papers keep on disk would hide their mutants, and outlive them.
         """
-        switch.active = number
-        os.environ["MUTANT"] = str(number)
-        if "/bank/" in self.mutants[number].file:
+        import mutant_switch
+
+        mutant_switch.HITS, mutant_switch.active = None, number
+        os.environ |= {"MUTANT": str(number), "MUTANT_HITS": ""}
+        if number >= 0 and Path(self.mutants[number].file).parts[1] in {"bank", "paper"}:
             os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp(dir=".")
-            for one in gc.get_objects():
-                if isinstance(one, CACHED) and "quizgen" in (one.__module__ or ""):
-                    one.cache_clear()
-        for place, item in enumerate(items):
-            following = items[place + 1] if item is not items[-1] else None
+        self.failed = False
+        for at, item in enumerate(items):
+            place.write_text(str(at))
+            signal.setitimer(signal.ITIMER_PROF, 20 + 10 * self.seconds[item.nodeid])
+            following = items[at + 1] if item is not items[-1] else None
             item.config.hook.pytest_runtest_protocol(item=item, nextitem=following)
             if self.failed:
-                return place + 1
+                return 1
         return 0
 
 
-def choose_tests(items: list[Any], seconds: dict[str, float]) -> list[Any]:
-    """Return the tests that a mutant meets, the quickest first, as far as there is time."""
-    chosen, spent = list[Any](), 0.0
-    for item in sorted(items, key=lambda one: seconds[one.nodeid]):
-        spent += seconds[item.nodeid]
-        if len(chosen) < FEWEST or (spent < SECONDS and len(chosen) < MOST):
-            chosen.append(item)
-    return chosen
-
-
-def import_all_modules() -> None:
-    """Import what tests import, once for all processes that are forked off."""
+def forget_all() -> None:
+    """Import what tests import, once for all processes forked off; forget what collecting found."""
     import quizgen
 
     for found in pkgutil.walk_packages(quizgen.__path__, "quizgen."):
         if not found.name.endswith(("__main__", "_build_hook", "migrations.env")):
             importlib.import_module(found.name)
+    gc.unfreeze()
+    for one in gc.get_objects():
+        if isinstance(one, type(cache(int))) and "quizgen" in (one.__module__ or ""):
+            one.cache_clear()
 
 
-def run_child(work: Callable[[], int], seconds: float) -> int:
-    """Return what some work gives in a process forked off, or -1 if it does not end in time."""
+def run_child(work: Callable[[], int]) -> int:
+    """Return how a process forked off for some work ends: minus the signal that killed it, too."""
     child = os.fork()
     if not child:
         os.setsid()
@@ -255,15 +285,13 @@ def run_child(work: Callable[[], int], seconds: float) -> int:
             os._exit(work())
         finally:  # never goes on as its parent
             os._exit(70)
-    until = time.monotonic() + seconds
-    while time.monotonic() < until:
-        ended, status = os.waitpid(child, os.WNOHANG)
-        if ended:
-            return os.waitstatus_to_exitcode(status)
+    until, ended, status = time.monotonic() + PATIENCE, 0, 0
+    while not ended and time.monotonic() < until:
         time.sleep(0.02)
-    os.killpg(child, signal.SIGKILL)
-    os.waitpid(child, 0)
-    return -1
+        ended, status = os.waitpid(child, os.WNOHANG)
+    with contextlib.suppress(ProcessLookupError):  # what it started, too
+        os.killpg(child, signal.SIGKILL)
+    return os.waitstatus_to_exitcode(status if ended else os.waitpid(child, 0)[1])
 
 
 def main() -> int:
@@ -274,17 +302,27 @@ def main() -> int:
     parser.add_argument("--each", type=int, default=50, help="mutants of each room")
     parser.add_argument("--seed", type=int, default=2029)
     parser.add_argument("--tests", default=" ".join(f"tests/{room}" for room in ROOMS))
+    parser.add_argument("--again", type=Path, help="a table: only mutants that survived in it")
     parser.add_argument("--out", type=Path, default=Path("mutants.tsv"))
     args = parser.parse_args()
     folder, out = Path(tempfile.mkdtemp(prefix="mutate-")), args.out.resolve()
+    table = args.again.read_text("utf-8") if args.again else ""
+    again = {tuple(line.split("\t")[:4]) for line in table.splitlines()}
+    commit = subprocess.run(["git", "rev-parse", "HEAD"], capture_output=True, check=True).stdout
     archive = subprocess.run(["git", "archive", "HEAD"], capture_output=True, check=True).stdout
     with tarfile.open(fileobj=io.BytesIO(archive)) as tree:
         tree.extractall(folder, filter="data")
     os.chdir(folder)
+    (folder / "hits").mkdir()
     os.environ |= {"PYTHONPATH": str(folder), "XDG_CACHE_HOME": str(folder / ".cache")}
+    os.environ |= {"MUTANT_HITS": str(folder / "hits"), "OPENBLAS_NUM_THREADS": "1"}
     sys.path.insert(0, str(folder))
-    runner = Runner(write_switches(folder, args.each, args.seed), out)
-    pytest.main(["-n", "0", "-s", "-p", "no:cacheprovider", *args.tests.split()], [runner])
+    mutants = write_switches(folder, args.each, args.seed)
+    if args.again:
+        mutants = {n: one for n, one in mutants.items() if ("SURVIVED", *one.row) in again}
+    runner = Runner(mutants, out, (commit, args.each, args.seed, args.tests))
+    options = ["-n", "0", "-s", "-p", "no:cacheprovider", "--basetemp", str(folder / "tmp")]
+    pytest.main([*options, *args.tests.split()], [runner])
     shutil.rmtree(folder)
     print(*(line for line in out.read_text("utf-8").splitlines() if "SURVIVED" in line), sep="\n")
     return 0

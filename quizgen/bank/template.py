@@ -59,7 +59,7 @@ class Template:
     digest : str
         Changes whenever any file behind the template changes.
     path : pathlib.Path
-    about : About
+    about : BankMetadata
         What its bank says about itself.
     quantities : QuantityNames
         What the letters of its solver mean; only forms made from the chain say so, which is why
@@ -132,14 +132,17 @@ class Template:
 
     @cached_property
     def exact_steps(self) -> frozenset[str]:
-        """Names of the steps whose values lead to answers that must be exact."""
+        """Names of the steps asked with ``exact = true``, and of all that those rest on."""
         asked = (asked_quantities(p.answer) for p in self.rules.part if p.answer.get("exact"))
         names = {name for quantities in asked for name in quantities} & self.chain.by_name.keys()
         return frozenset().union(*map(self.chain.required_steps, names), names)
 
     @cached_property
     def estimated_steps(self) -> frozenset[str]:
-        """Names of the steps that are asked within a share of their value, nothing exact behind."""
+        """Names of the steps asked with ``rel`` on which no exact answer rests.
+
+        Texts may show them rounded where they have many figures.
+        """
         asked = (asked_quantities(p.answer) for p in self.rules.part if "rel" in p.answer)
         names = frozenset(name for quantities in asked for name in quantities)
         return names & self.chain.by_name.keys() - self.exact_steps

@@ -14,7 +14,6 @@ from collections.abc import Iterable, Mapping
 from contextlib import redirect_stdout
 from fractions import Fraction
 from functools import cache, lru_cache
-from importlib import import_module
 from importlib.machinery import ModuleSpec, SourceFileLoader
 from importlib.util import module_from_spec
 from io import StringIO
@@ -104,7 +103,9 @@ def _run_within_time(
     """Run a check in this process, for ``SECONDS`` at most where there is such a timer."""
     timed = hasattr(signal, "setitimer") and threading.current_thread() is threading.main_thread()
     try:
-        check = _load_check(source)[function]  # before the clock: an import that is cut stays broken
+        check = _load_check(source)[
+            function
+        ]  # before the clock: an import that is cut stays broken
         before = signal.signal(signal.SIGALRM, _end_check) if timed else None
         if timed:
             signal.setitimer(signal.ITIMER_REAL, SECONDS)
@@ -151,7 +152,7 @@ class _TrustedSource(SourceFileLoader):
 def _load_check(source: bytes) -> dict[str, Any]:
     """Return the names of a check's module, run once for each text of it."""
     if b"sympy" in source:  # which read_as_sympy needs, too
-        import_module("sympy")
+        import sympy  # noqa: F401
     loader = _TrustedSource(source)
     module = module_from_spec(ModuleSpec("check", loader, origin=CHECK))
     loader.exec_module(module)

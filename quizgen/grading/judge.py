@@ -165,7 +165,7 @@ def explain_verdict(spec: AnySpec, verdict: Verdict, lang: str, *, reveal: bool 
 
     Parameters
     ----------
-    spec : Spec
+    spec : AnySpec
     verdict : Verdict
     lang : str
     reveal : bool

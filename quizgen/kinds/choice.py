@@ -13,7 +13,7 @@ from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import fold_word
 from quizgen.grading.judging.wordings import find_wording_in, holds_wording, share_words
 from quizgen.grading.options import GradingOptions
-from quizgen.grading.reading.answer_reader import AnswerForm, says_otherwise
+from quizgen.grading.reading.answer_reader import AnswerForm, is_denied, says_otherwise
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, PICTURES, normalise_typed
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, correct, partial, wrong
@@ -48,6 +48,7 @@ _TRUE = frozenset(
         "হাঁ",
         "satya",
     }
+    | {"thik", "sothik", "sotti", "haan", "hya"}
     | {"সত্য", "হ্যাঁ", "হ্যা", "সত্যি", "ঠিক", "সঠিক", "স", "1", "✓", "✔"}
 )
 _FALSE = frozenset(
@@ -68,8 +69,11 @@ _FALSE = frozenset(
         "inkorrekt",
         "❌",
     }
+    | {"bhul", "mithya", "na"}
     | {"মিথ্যা", "মিথ্যে", "অসত্য", "ভূল", "বেঠিক", "না", "ভুল", "ম", "0", "2", "✗", "✘"}
 )
+_TAKING_BACK = frozenset({"না", "na", "নয়"})
+"""Words that turn round the one before them: ``ভুল না`` is right."""
 _FEWEST_VALUES = 2
 """Values that there are to choose from, at least."""
 _USUAL_VALUES = 5
@@ -97,7 +101,8 @@ _DENIED = re.compile(
 """A word that is denied: what is not true is false, and the other way round."""
 _TRUTH_FIRST = re.compile(
     r"(?P<first>[^\s,;:.(]+)(?!(?<=\d)[.,]\d)"
-    r"(?:[,;:.] ?| (?=\()| ?[-–—] | (?=it |it's |that's |they |this |that |weil |because ))(?P<rest>.+)"
+    r"(?:[,;:.] ?| (?=\()| ?[-–—] "
+    r"| (?=it |it's |that's |you |we |there |they |this |that |weil |because ))(?P<rest>.+)"
 )
 """*Yes* or *false* with a reason behind it; ``0.5`` is neither."""
 _SHORT_DENIAL = re.compile(
@@ -111,6 +116,8 @@ _CONCLUSION = re.compile(
 )
 """What is concluded at the end: ``it is linear, so true``, ``less motion blur -> B``."""
 _PIECES = re.compile(r"[;\n]|,(?=\s*[\[(]?[A-Za-zক-ঞ\d][\])]?\s*[).:=-])")
+_BANGLA_WORDS = re.compile(r"(?!(?:এবং|ও|আর|বা) )[^;,&+]*[\u0980-\u09ff]{3,}[^;,&+]*")
+"""Words of Bangla behind a letter, and no further letter."""
 _BENGALI = re.compile(r"[\u0980-\u09ff]")
 _SET_OFF = re.compile(r"^[\[(]?(?:[^\W_]|\d{2}) ?[\]).:=-]+ ?[^\s,;]{2}|[\[(][^\W\d_][\])]$")
 """A letter with a sign before or behind words of more than one letter."""
@@ -135,7 +142,8 @@ _SET_APART = (
 _BRACKETED = re.compile(r"(?P<mark>[A-Za-zক-ঞ]) ?\((?P<words>[^()]{2,})\)")
 _ALL = frozenset({"all", "all of them", "all of these", "alle", "সব", "সবগুলো", "সবগুলি"})
 _ALL_BUT = re.compile(
-    r"(?:all|every(?:thing|one)?|alle|alles)(?: of them)?,? (?:but|except|without|außer|ohne)(?: for)? (?P<out>.+)"
+    r"(?:all|every(?:thing|one)?|alle|alles)(?: of them)?,? "
+    r"(?:but|except|without|außer|ohne)(?: for)? (?P<out>.+)"
     r"|(?P<before>.+?) (?:বাদে|ছাড়া|ছাড়া) (?:সব|বাকি সব)(?:গুলো|গুলি)?",
     re.IGNORECASE,
 )
@@ -244,7 +252,7 @@ class ChoiceSpec(WordSpec, kw_only=True, frozen=True):
         return _format_options(self, self.correct)
 
     def show_in(self, lang: str, /) -> str:
-        """Return the same with the word for true or false in a language."""
+        """Return the key as `show` does, true and false by their words in a language."""
         return (
             translate(fallback_language(lang), f"ask.{self.show()}")
             if self.kind == "tf"
@@ -266,16 +274,14 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
         return [whole]
     if spec.kind == "multi" and typed.casefold().strip(_AROUND) in _ALL:
         return list(range(1, len(spec.choices()) + 1))
-    but = _ALL_BUT.fullmatch(typed.strip(_AROUND)) if spec.kind == "multi" else None
-    if but:
+    if but := _ALL_BUT.fullmatch(typed.strip(_AROUND)) if spec.kind == "multi" else None:
         left_out = _read_positions(spec, but["out"] or but["before"])
         return [one for one in range(1, len(spec.choices()) + 1) if one not in left_out]
     if {*map(str.casefold, spec.choices())} == {"yes", "no"} and (truth := read_truth(typed)):
         return [spec.choices().index(("yes", "no")[truth - 1]) + 1]
-    if said := _find_option_by_truth(spec, typed):
-        return [said]
     read = (
-        _parse_labelled_options(spec, typed)
+        _find_option_by_truth(spec, typed)
+        or _parse_labelled_options(spec, typed)
         or _read_set_apart(spec, typed)
         or _find_option_by_its_end(spec, typed)
     )
@@ -289,21 +295,21 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
     return (spec.kind == "choice" and len(read) > 1 and _find_worded_options(spec, typed)) or read
 
 
-def _find_option_by_truth(spec: ChoiceSpec, typed: str) -> int:
+def _find_option_by_truth(spec: ChoiceSpec, typed: str) -> list[int]:
     """Return the place of the only option that begins with *Yes* or *No*, as the answer does.
 
-    0 if several do, if the answer says neither, or if the words behind it mean another option.
+    None if several do, if the answer says neither, or if the words behind it mean another option.
     """
     leading = [read_truth(re.split(r"[,;:. ]", option, maxsplit=1)[0]) for option in spec.choices()]
     if {*leading} - {0} != {1, 2}:
-        return 0
+        return []
     first, _, rest = typed.strip(_AROUND).partition(" ")
     truth = read_truth(typed) or _find_truth_word(first.strip(",;:."))
     if not truth or leading.count(truth) != 1 or _ALTERNATIVE.search(typed):
-        return 0
+        return []
     place = leading.index(truth) + 1
     denied = says_otherwise(rest) and not read_truth(typed)
-    return place if _find_wording(spec, typed) in {0, place} and not denied else 0
+    return [place] if _find_wording(spec, typed) in {0, place} and not denied else []
 
 
 def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:
@@ -320,11 +326,7 @@ def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:
         number = _PLACES.index(place[1].lower()) + 1
         return [number] if number <= len(spec.choices()) else []
     named = _LETTER_LAST.fullmatch(text)
-    if (
-        named is None
-        or says_otherwise(named["words"])
-        or _find_wording(spec, named["words"])
-    ):
+    if named is None or says_otherwise(named["words"]) or _find_wording(spec, named["words"]):
         return []
     position = LETTERS.find(named["mark"]) + 1
     return [position] if position <= len(spec.choices()) else []
@@ -514,7 +516,7 @@ def _find_truth_word(text: str) -> int:
     if word in _TRUE | _FALSE:
         return 1 if word in _TRUE else 2
     first, blank, second = word.partition(" ")
-    told = _find_truth_word(first) if blank else 0
+    told = _find_truth_word(first) if blank and second not in _TAKING_BACK else 0
     return told if told and told == _find_truth_word(second) else 0
 
 
@@ -551,9 +553,10 @@ def _parse_labelled_option(spec: ChoiceSpec, piece: str) -> int:
     meant = _find_meant_options(spec, match["words"], foreign=bool(_SET_OFF.search(text)))
     if not 1 <= position <= len(spec.choices()):
         return 0
-    if not meant and mark.isupper() and not says_otherwise(match["words"]):
-        shared = share_words(match["words"], [texts[position - 1] for texts in (spec.choices(), *spec.said)])
-        return position if shared else 0
+    if not meant and mark.isupper() and not is_denied(match["words"]):
+        own = [texts[position - 1] for texts in (spec.choices(), *spec.said)]
+        told = _BANGLA_WORDS.fullmatch(match["words"]) or share_words(match["words"], own)
+        return position if told and not _ALTERNATIVE.search(match["words"]) else 0
     if not meant:
         return 0
     if position not in meant and text.startswith("a ") and len(meant) == 1:

@@ -12,18 +12,21 @@ import msgspec
 from flint import fmpq
 
 from quizgen.grading.judging.algebraic_equality import prove_equal
+from quizgen.grading.judging.relations import as_fraction
 from quizgen.grading.judging.sampled_equality import Domain, compare_by_sampling, values_agree
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.formulas import parse_authored, read_formula
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, ambiguous, correct, wrong
-from quizgen.kinds.asking import hint, make_spec, misconception_specs
+from quizgen.kinds.asking import make_spec, misconception_specs
 from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredAnswer, PartContext
 from quizgen.kinds.forms import require_form, typeset_key
 from quizgen.kinds.work import count_once
+from quizgen.locale import translate
+from quizgen.maths.constants import evaluate_constant
 from quizgen.maths.notation import FormulaReadError, format_tree, pretty
-from quizgen.maths.tree import Call, Expr, names_in
+from quizgen.maths.tree import Call, Expr, make_number, names_in
 
 if TYPE_CHECKING:
     from quizgen.question.inlines import TextOrInlines
@@ -75,8 +78,12 @@ class EquationSpec(WordSpec, kw_only=True, frozen=True):
         own = _parse_authored_relation(key, tuple(self.symbols))
         if _kind_of(own) != _kind_of(equation):
             return False
+        if own.op == "eq" and not names_in(own) | names_in(equation):
+            return _is_true(own) == _is_true(equation)
         mine, typed = _take_difference(own), _take_difference(equation)
         domains: dict[str, Domain] = dict.fromkeys(self.symbols, "real")
+        if own.op == "eq":
+            mine, typed = (as_fraction(_multiply_conjugates(side))[0] for side in (mine, typed))
         if prove_equal(mine, typed):
             return True
         found = compare_by_sampling(mine, typed, domains)
@@ -125,6 +132,29 @@ def _take_difference(relation: Call) -> Expr:
     return Call("sub", (right, left) if relation.op in {"lt", "le"} else (left, right))
 
 
+def _is_true(equation: Call) -> bool:
+    """Return whether an equation between numbers holds: one that does not has no solution."""
+    return evaluate_constant(equation.args[0]) == evaluate_constant(equation.args[1])
+
+
+def _multiply_conjugates(tree: Expr) -> Expr:
+    """Return a formula with ``(a - √b)(a + √b)`` as ``a² - b``, which is 0 for the same numbers.
+
+    For a negative b the product has no value, and the difference is positive.
+    """
+    if not isinstance(tree, Call):
+        return tree
+    args = tuple(map(_multiply_conjugates, tree.args))
+    if tree.op == "mul" and [getattr(arg, "op", "") for arg in args] in _CONJUGATES:
+        (a, root), (same, other) = (arg.args for arg in args if isinstance(arg, Call))
+        if a == same and root == other and isinstance(root, Call) and root.op == "sqrt":
+            return Call("sub", (Call("pow", (a, make_number(2))), root.args[0]))
+    return Call(tree.op, args)
+
+
+_CONJUGATES = (["sub", "add"], ["add", "sub"])
+
+
 def ask(part: PartContext) -> AskedPart[EquationSpec]:
     """Return the equation of the solver, and what each mistake makes of it."""
     forms = {"": part.answer_form(), **part.misconception_forms()}
@@ -139,6 +169,12 @@ def ask(part: PartContext) -> AskedPart[EquationSpec]:
     return AskedPart(spec, mistakes=misconception_specs(spec, "value"))
 
 
+def input_hints(spec: EquationSpec, lang: str) -> tuple[TextOrInlines, ...]:
+    """Return how an equation or an inequality is typed, whichever is asked."""
+    is_equation = _parse_authored_relation(spec.value, tuple(spec.symbols)).op == "eq"
+    return (translate(lang, "ask.equation" if is_equation else "ask.inequality"),)
+
+
 def explain_key(spec: EquationSpec, _lang: str) -> TextOrInlines:
     """The equation as it is written by hand."""
     return typeset_key(parse_authored(spec.value, tuple(spec.symbols)))
@@ -148,7 +184,7 @@ KIND = AnswerKind(
     AuthoredEquation,
     EquationSpec,
     ask,
-    hint("ask.equation"),
+    input_hints,
     explain_key,
     work=count_once("line derived", 2),
 )

@@ -35,12 +35,12 @@ ROUNDED = fmpq(1, 200)
 
 
 def require_form(part: PartContext, form: Expr, *ops: str) -> Call:
-    """Return a form, if it is of the sort that a kind asks for.
+    """Return what a solver gives, if it is one of the operators that a kind asks for.
 
     Raises
     ------
     BankError
-        If it is another.
+        If it is another, or none.
     """
     if not isinstance(form, Call) or form.op not in ops:
         wanted = " or ".join(_FORM_WORDS.get(op, op) for op in ops)

@@ -23,7 +23,7 @@ from quizgen.grading.judging.spelling import (
 )
 from quizgen.grading.judging.wordings import load_translations
 from quizgen.grading.options import GradingOptions
-from quizgen.grading.reading.answer_reader import AnswerForm, says_otherwise
+from quizgen.grading.reading.answer_reader import AnswerForm, is_denied, says_otherwise
 from quizgen.grading.reading.normalise import ANSWER, PICTURES, apply_rewrite, refuse_invisible
 from quizgen.grading.reading.number_words import list_number_words
 from quizgen.grading.reading.source_map import SourceText
@@ -166,7 +166,7 @@ _PAIR = re.compile(r"(?<![-–—\d])(\d{1,2})\s*[-–—]\s*(\d{1,2})(?![-–�
 _ENDINGS = ("ly", "e", "er", "en", "es", "em")
 LONG = 6
 """Letters of a term that may take an ending."""
-_ENDS = " \t\r\n,;"
+_ENDS = " \t\r\n,;="
 _QUOTES = "[]{}“”„‘’«»\"'"
 _JOINED = re.compile(r"\s(?:and|und|এবং|ও)$")
 _MEASURE = re.compile(r"\d+ ?[a-zµ]{2,3}")
@@ -284,6 +284,7 @@ def _judge_gap(spec: GapSpec, gap: list[str], word: str) -> Verdict:
     word = _translate_word(
         word, [*gap, *(term for one in spec.gaps() for term in one), *spec.among]
     )
+    word = _drop_remark(word, [*gap, *(term for one in spec.gaps() for term in one), *spec.among])
     word = _drop_idle_words(word, [term for one in spec.gaps() for term in one] + spec.among)
     folded = fold_word(word)
     if not folded:
@@ -360,6 +361,23 @@ def _load_idle_words() -> frozenset[str]:
     )
 
 
+def _drop_remark(word: str, terms: list[str]) -> str:
+    """Return a term without what stands behind it in brackets, ``subtractive (CMYK)``.
+
+    Nothing is dropped that offers another word or takes it back.
+    """
+    outside, bracket, remark = word.partition("(")
+    if not bracket or is_denied(outside) or _OFFERED.search(remark):
+        return word
+    plain = _drop_idle_words(outside.strip(), terms)
+    return plain if fold_word(plain) in map(fold_word, terms) else word
+
+
+_OFFERED = re.compile(
+    r"^ ?(?:not|or|nicht|oder|maybe|perhaps|\?|না)|(?:^|[ ,])(?:or|oder|বা|অথবা) ", re.IGNORECASE
+)
+
+
 def _drop_idle_words(word: str, terms: list[str]) -> str:
     """Return the term among words that say nothing, ``still green``; else all of it."""
     words = word.split()
@@ -380,9 +398,7 @@ def _is_in_company(word: str, gap: Sequence[str], others: Sequence[str]) -> bool
     wrong = {fold_word(term) for term in others}
     for term in gap:
         wanted = [fold_word(piece) for piece in term.split()]
-        places = [
-            i for i in range(len(words)) if words[i : i + len(wanted)] == wanted
-        ]
+        places = [i for i in range(len(words)) if words[i : i + len(wanted)] == wanted]
         rest = [*words[: places[0]], *words[places[0] + len(wanted) :]] if places else []
         alone = len(wanted) == 1 and (places != [0] or len(rest) > 1)
         known = wrong & {*rest, "".join(rest)}

@@ -37,7 +37,8 @@ _COMMAS = re.compile(r"[;,\n](?![^(]*\))\s*")
 """What stands between sides in order, outside brackets."""
 _LEFT_OVER = re.compile(
     r"(?<=\d)[ ,;.]*\(?(?:\d+(?:(?:,| and| und) \d+)*) "
-    r"(?:(?:is|are|ist|sind|stays|stay|bleibt|bleiben) (?:left over|left|over|unused|not used|spare|extra|übrig|nothing|none)"
+    r"(?:(?:is|are|ist|sind|stays|stay|bleibt|bleiben) "
+    r"(?:left over|left|over|unused|not used|spare|extra|übrig|nothing|none)"
     r"|unused|left over|übrig|fits nothing|fits nowhere)\)?\.?$",
     re.IGNORECASE,
 )

@@ -13,6 +13,7 @@ from quizgen.grading.diagnosis.carry_forward import diagnosis_for
 from quizgen.grading.judge import show_spec
 from quizgen.grading.judging.numeric import NumberTarget, best_verdict, judge_readings, judge_value
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading import bases
 from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.count_nouns import (
     check_count_nouns,
@@ -38,7 +39,7 @@ from quizgen.grading.reading.quantities import TypedQuantity
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.reading.units import TypedUnit, listed_unit
 from quizgen.grading.rounding import format_key
-from quizgen.grading.spec import ScalarSpec, is_large_count
+from quizgen.grading.spec import ScalarSpec, is_large_count, is_whole_number
 from quizgen.grading.verdict import Verdict, attach_values, unreadable, wrong
 from quizgen.kinds import quantity
 from quizgen.kinds.asking import (
@@ -64,6 +65,7 @@ class AuthoredNumber(AuthoredNumeric, tag="number", frozen=True):
     percent: bool = False
     unit: str = ""
     notation: Literal["", "f-number"] = ""
+    base: int = bases.TEN
     counts: str | tuple[str, ...] = ()
 
 
@@ -73,7 +75,8 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
     With ``percent`` the value is the fraction, tolerances and ``accept`` are in percent, and
     ``4.55 %``, ``4.55`` and ``0.0455`` are read alike. ``notation = "f-number"`` reads ``1:8``
     as 8. With ``unit`` (printed beside the field) the unit may be typed or left out. ``counts``
-    are a unit or words for what is counted, which may be typed, too.
+    are a unit or words for what is counted, which may be typed, too. A whole number of another
+    ``base`` (2 to 16) is typed and printed in its digits.
     """
 
     written_as: ClassVar[AnswerForm] = "number"
@@ -82,6 +85,7 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
     percent: bool = False
     unit: str = ""
     notation: Literal["", "f-number"] = ""
+    base: int = bases.TEN
     counts: list[str] = msgspec.field(default_factory=list)
 
     def validate(self) -> None:
@@ -89,6 +93,10 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
         super().validate()
         get_unit(self.unit)
         check_count_nouns(self.counts)
+        if not 2 <= self.base <= bases.MOST:
+            raise ValueError(f"base must be 2 to {bases.MOST}")
+        if self.base != bases.TEN and not is_whole_number(parse_exact(self.value)):
+            raise ValueError("base needs a whole number")
 
     @property
     def is_whole(self) -> bool:
@@ -107,6 +115,9 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
         FormulaReadError
             If it cannot be read.
         """
+        if self.base != bases.TEN:
+            number = bases.read_in_base(typed, self.base)
+            return _judge_as(self, number, number.value, options)
         if self.unit:
             return _with_unit(self, typed, options)
         plain = read_plain_number(typed, options.decimal)
@@ -123,7 +134,8 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
         verdict = best_verdict(_judge_side(self, side, source, options) for side in sides)
         if verdict.credit or not {*self.counts} & MILLIONS or not _MILLION.search(typed):
             return verdict
-        said = self.judge(_MILLION.sub("", typed), options)  # 50 million for 50 Mpx
+        last = re.split("[=≈]", typed)[-1]
+        said = self.judge(_MILLION.sub("", last), options)  # 50 million for 50 Mpx
         return said if said.credit else verdict
 
     @property
@@ -133,6 +145,8 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
+        if self.base != bases.TEN:
+            return bases.format_in_base(int(parse_exact(self.value).p), self.base)
         if self.exact and not self.percent and not is_number(self.value):
             return f"{pretty.format_constant(str(self.value))} {format_unit(self.unit)}".rstrip()
         value = parse_exact(self.value) * (100 if self.percent else 1)
@@ -333,14 +347,22 @@ def ask(part: PartContext) -> AskedPart[NumberSpec]:
 
 
 def input_hints(spec: NumberSpec, lang: str) -> tuple[str, ...]:
-    """Return the sentences on percent, unit and rounding."""
+    """Return the sentences on percent, unit and rounding; of another base only that it is."""
+    if spec.base != bases.TEN:
+        return (translate(lang, "ask.base", base=str(spec.base)),)
     percent = translate(lang, "ask.percent") if spec.percent else ""
     return numeric_hints(spec, lang, percent, unit_hint(spec.unit, lang))
 
 
+def paper_hints(spec: NumberSpec, lang: str) -> tuple[str, ...]:
+    """Return the base of the digits, else how exactly the number must be given."""
+    return input_hints(spec, lang) if spec.base != bases.TEN else precision_on_paper(spec, lang)
+
+
 def explain_key(spec: NumberSpec, lang: str) -> str:
-    """Return the key with the exact value first, unless a percentage is asked."""
-    return show_spec(spec, lang) if spec.percent else show_exact_first(spec, lang)
+    """Return the key with the exact value first, unless a percentage or another base is asked."""
+    plain = spec.percent or spec.base != bases.TEN
+    return show_spec(spec, lang) if plain else show_exact_first(spec, lang)
 
 
 KIND = AnswerKind(
@@ -349,6 +371,6 @@ KIND = AnswerKind(
     ask,
     input_hints,
     explain_key,
-    precision_on_paper,
+    paper_hints,
     accept_within_tolerance,
 )

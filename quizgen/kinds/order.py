@@ -35,11 +35,13 @@ from quizgen.maths.notation import FormulaReadError
 MOST_STEPS = 40
 _LETTERED = r"[A-Za-z](?:(?:,| and| or| und)? [A-Za-z])*"
 _LEFT_OUT = re.compile(
-    r"(?P<kept>.+)(?:[,;:.] ?| ?\(| (?=without |leav|ohne |বাদ |not |but |and not |no |nicht |except ))"
+    r"(?P<kept>.+)(?:[,;:.] ?| ?\("
+    r"| (?=without |leav|ohne |বাদ |not |but |and not |no |nicht |except ))"
     r"(?:(?:without|leave out|leaving out|leaves out|ohne|বাদ) (?P<out>[^()]+)"
     rf"|(?:(?:and |but |und )?(?:not|no|nicht)|except|außer) (?P<denied>{_LETTERED})"
     rf"|(?P<wrong>{_LETTERED}) (?:(?:is |are |ist |sind |was )?"
-    r"(?:wrong|false|out|falsch|left out|not|nicht|missing|বাদ)|(?:does|do)(?: not|n't) (?:belong|fit)"
+    r"(?:wrong|false|out|falsch|left out|not|nicht|missing|বাদ)"
+    r"|(?:does|do)(?: not|n't) (?:belong|fit)"
     r"|gehör(?:t|en) nicht dazu|entfällt|fällt weg)(?:,? (?:because|since|weil) [^()]+)?)[).]*",
     re.IGNORECASE,
 )
@@ -118,8 +120,8 @@ class OrderSpec(WordSpec, kw_only=True, frozen=True):
     """Order: ``steps``; ``before`` = [[a, b], ...]; ``distractors`` that must stay out.
 
     ``together`` are groups of steps between which no other one may stand. Without ``before`` the
-    listed order is the only one. Steps are typed by their labels, or by their ``words``, which ``said`` has
-    in each further language.
+    listed order is the only one. Steps are typed by their labels, or by their
+    ``words``, which ``said`` has in each further language.
     """
 
     written_as: ClassVar[AnswerForm] = "option"
@@ -365,7 +367,9 @@ def _parse_numbered_lines(text: str) -> list[str]:
     """
     for shape, first, second in _PLACED:
         found = {one[first]: one[second] for one in shape.finditer(text)}
-        if not shape.sub("", text).strip(" ,;.") and {*map(int, found)} == {*range(1, len(found) + 1)}:
+        if not shape.sub("", text).strip(" ,;.") and {*map(int, found)} == {
+            *range(1, len(found) + 1)
+        }:
             return [found[place] for place in sorted(found, key=int)] if len(found) > 1 else []
     pairs = dict(_LINE.findall(text))
     whole = not _LINE.sub("", text).strip(" ,;.")

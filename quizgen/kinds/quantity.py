@@ -126,7 +126,8 @@ def _judge_reading(
     if quantity.unit is None:
         return _judge_without_unit(spec, number, wanted, options)
     read_as = f"{number.read_as} {format_unit(quantity.unit.text)}"
-    if _fold_counted(quantity.unit.dimension, wanted.dimension) != wanted.dimension:
+    typed = quantity.unit.dimension
+    if wanted.dimension not in {typed, _drop_line_pairs(typed)}:
         return _reject_unit_clash(spec, number, quantity.unit, read_as)
     value = number.value * quantity.unit.factor / wanted.factor
     verdict = judge_in_unit(spec, number, value, options, read_as)
@@ -147,25 +148,9 @@ def judge_in_unit(
     return attach_values(verdict, value)
 
 
-def _fold_counted(typed: Dimension, wanted: Dimension) -> Dimension:
-    """Return a dimension with its counted things as they are asked.
-
-    Rows and columns of a picture are pixels where pixels are asked, and line pairs are periods
-    where nothing is counted.
-    """
-    if typed == wanted or not {*_COUNTED_THINGS} & {base for base, _ in typed}:
-        return typed
-    powers = dict(typed)
-    for base, same in _COUNTED_THINGS.items():
-        power = powers.pop(base, 0)
-        if same and power and same in dict(wanted):
-            powers[same] = power
-        elif same and power:
-            powers[base] = power
-    return tuple(sorted(powers.items()))
-
-
-_COUNTED_THINGS = {"row": "px", "column": "px", "lp": ""}
+def _drop_line_pairs(typed: Dimension) -> Dimension:
+    """Return a dimension without line pairs, which are periods where nothing is counted."""
+    return tuple((base, power) for base, power in typed if base != "lp")
 
 
 def _judge_without_unit(

@@ -295,7 +295,7 @@ class _TemplateFormulas:
         self._values = values
 
     def with_changes(self, changed: Mapping[str, Scalar]) -> _TemplateFormulas:
-        """Return the same with wrong values in place of some."""
+        """Return these formulas over values some of which are changed."""
         return _TemplateFormulas(
             {**self._values, **{name: self.number(to) for name, to in changed.items()}}
         )

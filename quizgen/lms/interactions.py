@@ -14,6 +14,7 @@ from typing import ClassVar
 from msgspec import structs
 
 from quizgen.bank.markdown import Inline, PlainText
+from quizgen.grading.reading import bases
 from quizgen.grading.spec import AnySpec, NumericSpec, ScalarSpec
 from quizgen.grading.spec import VectorSpec as SeveralNumbers
 from quizgen.kinds import angle, choice, code, gap, match, number, order, point, table, vector
@@ -237,6 +238,12 @@ def _number_interactions(spec: number.NumberSpec, solved: SolvedPart) -> tuple[I
     """Return a numeric interaction; a fraction is graded manually."""
     if spec.form in {"fraction", "lowest"}:
         return (solved.as_manual("fraction"),)
+    if spec.base != bases.TEN:
+        wrong = tuple(
+            (structs.replace(spec, value=value, traps={}).show(), solved.mistakes.get(name, ()))
+            for name, value in spec.traps.items()
+        )
+        return (TextEntryInteraction((spec.show(),), wrong),)
     unit = "%" if spec.percent else spec.unit
     return _numeric_interaction(spec, solved, unit, 100 if spec.percent else 1)
 
@@ -337,7 +344,10 @@ def _vector_interactions(spec: vector.ColumnSpec, solved: SolvedPart) -> tuple[I
     if spec.up_to:
         return (solved.as_manual("scale"),)
     numbers = point.PointSpec(
-        kind="point", values=[*spec.components], exact=True, traps={**spec.traps}
+        kind="point",
+        values=[*spec.components],
+        exact=True,
+        traps={name: [*values] for name, values in spec.traps.items()},
     )
     return _numeric_interactions(numbers, solved, [])
 

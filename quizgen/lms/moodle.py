@@ -238,9 +238,11 @@ def _write_line_field(interaction: Interaction, weight: int, lang: str) -> Marku
         case ChoiceInteraction(many=False):
             shown = [to_course_html(option.words, lang) for option in interaction.options]
             kind = "MULTICHOICE_V" if any("<" in one for one in shown) else "MULTICHOICE"
+        case TrueFalseInteraction():
+            return _cloze_field(weight, "MULTICHOICE", _list_truths(interaction, lang))
         case _:
             return Markup("")
-    rows = []
+    rows = list[tuple[str, float, Markup]]()
     for one in weighted_answers(interaction, lang):
         typed = f"{one.text}:{one.tolerance}" if kind == "NUMERICAL" else ""
         typed = typed or _escape_cloze(with_letter(one) if one.letter else one.text)
@@ -295,8 +297,14 @@ def _embed_choice(interaction: ChoiceInteraction, weight: int, lang: str) -> Mar
 @_embed_interaction.register
 def _embed_true_false(interaction: TrueFalseInteraction, weight: int, lang: str) -> Markup:
     """Return the two options of a statement."""
+    rows = _list_truths(interaction, lang)
+    return Markup("<div>{}</div>").format(_cloze_field(weight, "MULTICHOICE_H", rows))
+
+
+def _list_truths(interaction: TrueFalseInteraction, lang: str) -> list[tuple[str, float, Markup]]:
+    """Return true and false with the percentage of each, and the feedback to the wrong one."""
     feedback = to_course_html(interaction.feedback, lang)
-    rows = [
+    return [
         (
             _escape_cloze(translate(lang, f"ask.{name}")),
             100 * right,
@@ -304,7 +312,6 @@ def _embed_true_false(interaction: TrueFalseInteraction, weight: int, lang: str)
         )
         for name, right in (("true", interaction.true), ("false", not interaction.true))
     ]
-    return Markup("<div>{}</div>").format(_cloze_field(weight, "MULTICHOICE_H", rows))
 
 
 @_embed_interaction.register(MatchInteraction)

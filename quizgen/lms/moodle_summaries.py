@@ -164,7 +164,7 @@ def _bare_text(text: str) -> str:
 
 @lru_cache(maxsize=8192)
 def _bare_option(text: str) -> str:
-    """Return the same for an option; cached, as each is compared with every response."""
+    """Return the bare text of an option; cached, as each is compared with every response."""
     return _bare_text(text)
 
 

@@ -1,6 +1,8 @@
 """Operators on exact values: rationals stay rational, everything else is a certified ball.
 
-Run them under ``working_precision``. What is not here is a ball's own method (``sin``, ``tan``).
+Run them under ``working_precision``. Any of them raises ``MathError`` where there is no finite real
+value, and ``UndecidedError`` where a ball does not settle a sign, an order or a whole number. What
+is not here is a ball's own method (``sin``, ``tan``).
 """
 
 from __future__ import annotations
@@ -190,7 +192,7 @@ def round_half_away(a: Value) -> fmpq:
 
 
 def remainder(a: Value, b: Value) -> Value:
-    """Return the remainder with the sign of the divisor."""
+    """Return the remainder of a over b, b not 0; it has the sign of b, as in Python."""
     return a - b * floor(divide(a, b))
 
 

@@ -1,7 +1,9 @@
 """Special functions on exact values: rational where that is so, else certified balls.
 
-Run them under ``working_precision``. Quantiles are roots of their distribution function: found in
-floats, made sharp by Newton's method, and proved by the distribution function on either side.
+Run them under ``working_precision``. Any of them raises ``MathError`` where there is no finite real
+value, and ``UndecidedError`` where a ball does not settle it. Quantiles are roots of their
+distribution function: found in floats, made sharp by Newton's method, and proved by the
+distribution function on either side.
 """
 
 from __future__ import annotations
@@ -106,12 +108,12 @@ def lambertw(a: Value) -> Value:
 
 
 def lowergamma(s: Value, x: Value) -> arb:
-    """Return the lower incomplete gamma function."""
+    """Return the integral of t^(s-1) e^-t from 0 to ``x``: not divided by gamma of ``s``."""
     return _require_value(_to_ball(x).gamma_lower(_to_ball(s)))
 
 
 def uppergamma(s: Value, x: Value) -> arb:
-    """Return the upper incomplete gamma function."""
+    """Return the integral of t^(s-1) e^-t from ``x`` on: not divided by gamma of ``s``."""
     return _require_value(_to_ball(x).gamma_upper(_to_ball(s)))
 
 
@@ -137,7 +139,7 @@ bessel_modified_second_kind = _make_bessel("bessel_k")
 def _require_degrees(n: Value) -> arb:
     """Return degrees of freedom as a ball; ``MathError`` if not from 0 to the largest."""
     if not 0 < n <= LARGEST_DEGREES:
-        raise MathError("degrees of freedom must be positive")
+        raise MathError(f"degrees of freedom must be positive, and at most {LARGEST_DEGREES}")
     return _to_ball(n)
 
 

@@ -206,7 +206,7 @@ def answer_key_digest(key: AnswerKey, code: str = "") -> str:
 
     Parameters
     ----------
-    key : Key
+    key : AnswerKey
     code : str
         That which the paper had before it got a secret one.
     """

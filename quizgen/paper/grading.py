@@ -123,7 +123,7 @@ def grade_paper(
 
     Parameters
     ----------
-    key : Key or mapping
+    key : AnswerKey or mapping
         The contents of ``key.json``.
     answers : mapping of str to str
         Part to typed text.

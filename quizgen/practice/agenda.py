@@ -42,6 +42,7 @@ class Agenda:
     cards : mapping
         Those of the learner.
     now : float
+        Seconds since 1970.
     exam : datetime.date, optional
     """
 

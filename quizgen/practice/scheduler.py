@@ -118,6 +118,7 @@ def review_card(
         Kind and name of the card.
     grade : ReviewRating
     now : float
+        Seconds since 1970.
     left : int, optional
         Days until the exam: no interval is longer.
     """

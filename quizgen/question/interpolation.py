@@ -396,6 +396,17 @@ def _inlines_to_node(parts: Iterable[Inline]) -> Node:
     return nodes[0] if len(nodes) == 1 else MathRow(tuple(nodes))
 
 
+def _write_short(drawn: Variant, known: Values, name: str) -> str | None:
+    """Return a text, a form or a short number as it is typed; None if it is none of these."""
+    if (text := _get_own_text(drawn, name)) is not None:
+        return text
+    if name in drawn.template.rules.data and name in drawn.words:
+        return drawn.words[name]
+    if name in drawn.template.chain.form_by_name:
+        return pretty.format_formula(format_tree(drawn.form(name))).replace(MINUS, "-")
+    return format_exact(known[name], minus="-") if name in known else None
+
+
 def fill_program(text: str, drawn: Variant, known: Values) -> str:
     """Return program text, or its output, with the drawn values as a program writes them.
 
@@ -415,8 +426,6 @@ def fill_program(text: str, drawn: Variant, known: Values) -> str:
     def value(name: str) -> str:
         """Return a value as a program writes it; raise ``BankError`` if it is not exact."""
         listed, _, place = name.partition("[")
-        if (text := _get_own_text(drawn, name)) is not None:
-            return text
         bare, _, spec = name.partition(":")
         if spec and bare in known:
             try:
@@ -430,11 +439,7 @@ def fill_program(text: str, drawn: Variant, known: Values) -> str:
                 return ", ".join(texts)
             if 1 <= int(place.rstrip("]")) <= len(texts):
                 return texts[int(place.rstrip("]")) - 1]
-        if name in drawn.template.rules.data and name in drawn.words:
-            return drawn.words[name]
-        if name in drawn.template.chain.form_by_name:
-            return pretty.format_formula(format_tree(drawn.form(name))).replace(MINUS, "-")
-        written = format_exact(known[name], minus="-") if name in known else None
+        written = _write_short(drawn, known, name)
         if written is None:
             what = f"{{{{ {name} }}}} cannot stand in a program"
             raise BankError(what, rule="QG158", file=drawn.template.file)

@@ -102,7 +102,10 @@ def render_html_page(
 
 
 def render_html_fragment(layout: str, way: HtmlDialect, **content: object) -> Markup:
-    """Return a piece of a page, without its head, in a dialect of HTML."""
+    """Return a piece of a page, without its head, in a dialect of HTML.
+
+    ``layout`` and ``content`` are as in `render_html_page`.
+    """
     return Markup(_build_environment(way).get_template(layout).render(**content))
 
 

@@ -211,7 +211,7 @@ class ExamRecord(msgspec.Struct, frozen=True):
         return self.handed is not None and self.ends is not None and self.handed >= self.ends
 
     def is_over(self, now: float) -> bool:
-        """Return whether it was handed in, or its time is over."""
+        """Return whether it was handed in, or its time is over; ``now`` is of `Clock`, s."""
         return self.handed is not None or (self.ends is not None and now > self.ends)
 
 

@@ -37,8 +37,9 @@ class ReviewCardStore:
         Parameters
         ----------
         learner : int
-        asked : iterable of Asked
+        asked : iterable of ReviewEvent
         now : float
+            Seconds since 1970.
         left : int, optional
             Days until the exam.
         """

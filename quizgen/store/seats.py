@@ -66,7 +66,10 @@ class Seat(msgspec.Struct, frozen=True):
     saved: float | None = None
 
     def is_to_be_closed(self, now: float) -> bool:
-        """Return whether the time is over and nobody has handed the exam in."""
+        """Return whether the time was over `GRACE` ago, and nobody has handed the exam in.
+
+        ``now`` is a time of `Clock`, s.
+        """
         one = self.sitting
         return one is not None and one.handed is None and one.is_over(now - GRACE)
 

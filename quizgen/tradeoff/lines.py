@@ -1,5 +1,6 @@
 """Plain lines of NumPy that keep their digits, and others that a reader might write instead.
 
+Letters are those of the chapter (f, N, z, s, c), lengths all in one unit, intensities 0 to 1.
 None looks at its arguments: what a line gives where there is no answer (a pole, a grey) is not
 defined.
 """

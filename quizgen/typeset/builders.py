@@ -26,8 +26,7 @@ from quizgen.typeset.nodes import (
     UnitText,
 )
 
-RELATIONS = frozenset(["=", "≠", "<", "≤", ">", "≥", "≈", "∝", "→", "∈", "±", "~", "≪", "≫", "⇒", "⇔",
-                       ":"])  # fmt: skip
+RELATIONS = frozenset([*"=≠<≤>≥≈∝→∈±~≪≫⇒⇔:"])
 EQUALS = (OperatorSign("="), OperatorSign("≈"))
 """The signs of a worked line."""
 _DIGITS = r"\d[\d\u0020\u00a0\u2009\u202f]*(?:[.,]\d+)?"

@@ -151,6 +151,8 @@ class _Filling:
         if isinstance(node.base, Leaf) and (base.level < ATOM or isinstance(base, Scripts)):
             base = Fenced("()", base)
         sub, sup = (part and self.fill(part) for part in (node.sub, node.sup))
+        if isinstance(node.sup, Leaf) and sup == Digits("1"):  # a drawn exponent
+            return replace(node, base=base, sub=sub, sup=None) if sub else base
         return replace(node, base=base, sub=sub, sup=sup and _allow_slash(sup))
 
     def fill_fraction(self, node: Frac) -> Node:

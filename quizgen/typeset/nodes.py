@@ -110,7 +110,7 @@ class NumberWithUnit(Struct, frozen=True, tag=True):
 
     @property
     def level(self) -> int:
-        """A negative quantity needs brackets where a negative number does."""
+        """Return that of a quantity; if its number is negative, of a negative number."""
         return min(self.value.level, QUANTITY)
 
 
@@ -123,7 +123,7 @@ class Frac(Struct, frozen=True, tag=True):
 
     @property
     def level(self) -> int:
-        """A bar groups, a slash does not."""
+        """Return that of a fraction under a bar; with a slash it is a product."""
         return PRODUCT if self.inline else FRACTION
 
 
@@ -145,7 +145,7 @@ class Scripts(Struct, frozen=True, tag=True):
 
     @property
     def level(self) -> int:
-        """A power as soon as there is a superscript."""
+        """Return that of a power if there is a superscript, else that of an atom."""
         return ATOM if self.sup is None else POWER
 
     @property
@@ -232,7 +232,7 @@ class Display(Struct, frozen=True, tag=True):
 
     @property
     def level(self) -> int:
-        """That of what is set."""
+        """Return that of what is set."""
         return self.body.level
 
 

@@ -8,25 +8,25 @@ from sympy import evaluate, symbols
 from quizgen.maths.model import Model, Step
 
 N_1, N_2, S_1, S_2, r = symbols("N_1 N_2 S_1 S_2 r", positive=True)
-a, b, t_1, t_2 = symbols("a b t_1 t_2", positive=True)
+q_n, q_s, t_1, t_2 = symbols("q_N q_S t_1 t_2", positive=True)
 
 with evaluate(False):
     MODEL = Model(
         given={N_1: "", N_2: "", S_1: "", S_2: "", r: ""},
         steps=(
-            Step(a, (N_2 / N_1) ** 2),
-            Step(b, S_1 / S_2),
+            Step(q_n, (N_2 / N_1) ** 2),
+            Step(q_s, S_1 / S_2),
             Step(t_1, 1 / r, "s"),
-            Step(t_2, t_1 * a * b, "s"),
+            Step(t_2, t_1 * q_n * q_s, "s"),
         ),
-        formulas={"a": "F35"},
+        formulas={"q_N": "F35"},
         traps={
-            "not-squared": Step(a, N_2 / N_1),
-            "wrong-way": Step(a, (N_1 / N_2) ** 2),
-            "doubled": Step(a, 2 * (N_2 / N_1)),
-            "iso-inverted": Step(t_2, t_1 * a / b),
-            "iso-forgotten": Step(t_2, t_1 * a),
-            "number-forgotten": Step(t_2, t_1 * b),
-            "iso-squared": Step(t_2, t_1 * a * b**2),
+            "not-squared": Step(q_n, N_2 / N_1),
+            "wrong-way": Step(q_n, (N_1 / N_2) ** 2),
+            "doubled": Step(q_n, 2 * (N_2 / N_1)),
+            "iso-inverted": Step(t_2, t_1 * q_n / q_s),
+            "iso-forgotten": Step(t_2, t_1 * q_n),
+            "number-forgotten": Step(t_2, t_1 * q_s),
+            "iso-squared": Step(t_2, t_1 * q_n * q_s**2),
         },
     )

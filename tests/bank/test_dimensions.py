@@ -115,6 +115,7 @@ WRONG = [
     ("sin(a)", "", {"a": "30 °"}, "sin of degrees.*pi/180"),
     ("pi/180*acos(c)", "°", {"c": "0.77 1"}, "in radians"),
     ("a + 0", "rad", {"a": "30 °"}, "in degrees"),
+    ("1.008*n", "g/mol", {"n": "2 1"}, "is a plain number.*1 would be 1000 g/mol"),
     ("U/I", "W", {"U": "3 V", "I": "90 mA"}, "and the step says 'W'"),
     ("m*v", "J", {"m": "3 kg", "v": "2 m/s"}, "and the step says 'J'"),
     ("T + d", "K", {"T": "20 °C", "d": "3 K"}, "cannot be put together"),

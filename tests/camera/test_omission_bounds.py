@@ -15,7 +15,7 @@ from quizgen.camera.pixels.noise import FARTHEST, farthest_count
 from quizgen.camera.setup.view import Signal, View
 from quizgen.camera.simulation import is_within, measure_difference
 
-SCENES = [pytest.param(0, 20), pytest.param(20, draws(300, full=5000), marks=pytest.mark.slow)]
+SCENES = [pytest.param(0, 20), pytest.param(20, draws(150, full=5000), marks=pytest.mark.slow)]
 
 
 def draw_case(seed):

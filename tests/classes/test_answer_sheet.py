@@ -113,6 +113,8 @@ def test_boxes_are_black_frames_around_nothing_and_lines_are_free_to_write_on(sc
         for field in (one for one in line["sheet"]["fields"] if one["page"] == page):
             x, y, w, h = (field[name] * PER_MM for name in "xywh")
             inner = image[round(y + 4) : round(y + h - 4), round(x + 4) : round(x + w - 4)]
+            if field.get("is_number"):  # lines between its cells stand at the bottom alone
+                inner = inner[: -round(2.6 * PER_MM)]
             assert inner.min() > 200, field
             if field["kind"] == "box":
                 count += 1

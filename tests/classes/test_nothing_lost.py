@@ -75,6 +75,7 @@ def test_answers_under_odd_names_arrive(folder):
         ("id,1a,Q1A\n101,5,\n", "1a and Q1A are both part 1a"),
         ("id,1a,1a\n101,5,6\n", "two columns are called '1a'"),
         ("id,1a,\n101,5,6\n", "line 2: something stands in a column without a name"),
+        ("id,1a\n101,5,6\n", "line 2: more cells than columns"),
         ("id,1a\n101,\n", "101: nothing is filled in in.csv"),
         ("", "is empty"),
         ("id,1a\n101,5\n101,6\n", "line 3: 101 has other answers in line 2, which count"),

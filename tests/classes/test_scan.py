@@ -7,6 +7,7 @@ import io
 import json
 import os
 import random
+import re
 import shutil
 import struct
 import zlib
@@ -256,7 +257,10 @@ def test_a_page_without_a_code_is_assigned_by_hand_and_taken_back(
     assert "cup.jpg, page 1: no code can be read" in capsys.readouterr().out
     strays = [one for one in ScanFolder(ClassFolder(folder)).iter_pages() if not one.student]
     cup, rest = (f"{one.digest}-{one.number}" for one in strays)
-    assert f'data-picture="{cup}"' in (folder / "scans" / "scans.html").read_text("utf-8")
+    shown = (folder / "scans" / "scans.html").read_text("utf-8")
+    assert f'data-picture="{cup}"' in shown
+    [picture] = re.findall(rf'src="([^"]*{cup}\.jpg)"', shown)
+    assert (folder / "scans" / picture).read_bytes().startswith(b"\xff\xd8"), "a JPEG to look at"
 
     def assign(who: str, page: str, picture: str = cup) -> int:
         table = tmp_path / "typed.csv"

@@ -418,6 +418,7 @@ for name, values in (
 """
 
 
+@pytest.mark.slow
 def test_photographs_are_the_same_bytes_with_and_without_opencv(tmp_path):
     found = [
         subprocess.run(

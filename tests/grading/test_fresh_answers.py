@@ -24,6 +24,8 @@ from quizgen.paper import one_part
 ANSWERS = Path(__file__).parent / "fresh_answers.toml"
 LATER = [Path(__file__).parent / f"{name}_answers.toml" for name in ("later", "new")]
 """Answers to other questions, which nobody had marked when they were written down."""
+BLIND = Path(__file__).parent / "blind_answers.toml"
+"""Answers of an examiner who decided on each alone; what differs stands there with its reason."""
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ANSWERED = Path(__file__).parent / "answered_bank"
 """Questions of strangers that have changed since the answers were written."""
@@ -189,7 +191,8 @@ def read_rows(file: Path = ANSWERS) -> list[Row]:
     """Return every answer of the file, those made of habits last."""
     sections = tomllib.loads(file.read_text(encoding="utf-8"))
     rows = []
-    for part, section in sections.items():
+    for label, section in sections.items():
+        part, _, _seed = label.partition("/")
         place = (part, section.get("seed", 5), section.get("bank", ""))
         for decision, typed in section.items():
             fair = frozenset(decision.split("-or-"))
@@ -402,6 +405,41 @@ def test_all_later_ones_are_marked_as_an_examiner_would(file, share):
     counts, parted = count_agreement(rows)
     assert counts["agree"] >= share * len(rows)
     assert not find_accepted(parted)
+
+
+RUN_ELSEWHERE = frozenset({"checked", "program"})
+"""Kinds whose answers run in a process that is ended after some seconds."""
+
+
+def find_unexplained(every: int, first: int = 0) -> list[str]:
+    """Return what is decided neither as the blind examiner did nor as the file says, of a sample."""
+    sections = tomllib.loads(BLIND.read_text(encoding="utf-8"))
+    said = {
+        (label.partition("/")[0], section["seed"], typed): decision
+        for label, section in sections.items()
+        for typed, (decision, reason) in section.get("differs", {}).items()
+        if len(reason) > len("a reason")
+    }
+    found = []
+    for row in read_rows(BLIND)[first::every]:
+        if find_kind(row) in RUN_ELSEWHERE:
+            continue
+        decided = judge(row)
+        (fair,) = row.fair
+        wanted = said.get((row.part, row.seed, row.typed), fair)
+        if decided != wanted:
+            found.append(f"{row.part} {row.typed!r}: {decided}, not {wanted}")
+    return found
+
+
+def test_a_sample_of_a_blind_examiner_is_decided_as_the_file_says():
+    assert find_unexplained(97) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("half", [0, 1])
+def test_all_of_a_blind_examiner_are_decided_as_the_file_says(half):
+    assert find_unexplained(2, half) == []
 
 
 def print_agreement(file: Path = ANSWERS) -> None:

@@ -97,6 +97,7 @@ def test_hostile_input_is_answered_quickly_and_never_right(kind):
         assert len(verdict.read_as) < 700, name
 
 
+@pytest.mark.slow
 @together("kind", SPECS)
 def test_memory_stays_small(kind):
     tracemalloc.start()
@@ -169,7 +170,7 @@ def test_many_strings_raise_nothing_and_cost_next_to_nothing():
             assert min(timed(kind, text)[1] for _ in range(3)) < LIMIT, (kind, text)
 
 
-@settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=50, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(
     st.text(max_size=220),
     st.sampled_from(sorted(SPECS)),

@@ -17,6 +17,7 @@ from quizgen.core.errors import BankError
 from quizgen.grading import checking
 from quizgen.kinds.grade import grade_answer
 from quizgen.lint.template_checks import lint_template
+from quizgen.maths.notation import FormulaReadError
 from quizgen.question.part_context import ask_part
 
 RULES = """topic = "t"
@@ -162,6 +163,14 @@ def test_a_typed_formula_becomes_a_sympy_expression():
 
     x, c = sympy.symbols("x C1")
     assert checking.read_as_sympy("2x^2 + C1 sin 3x", "x C1") == 2 * x**2 + c * sympy.sin(3 * x)
+    assert checking.read_as_sympy("x log x", "x", log="ln") == x * sympy.log(x)
+    matrix = checking.read_matrix_as_sympy(
+        r"A = \begin{pmatrix} 1 & x \\\\ 1/2 & -3 \end{pmatrix}", "x"
+    )
+    assert matrix == sympy.Matrix([[1, x], [sympy.Rational(1, 2), -3]])
+    for typed in ("x log x", "1/0", "0/0"):
+        with pytest.raises(FormulaReadError):
+            checking.read_as_sympy(typed, "x")
 
 
 def test_the_example_of_the_manual_is_sound(tmp_path):

@@ -58,3 +58,20 @@ def test_a_known_mistake_may_earn_a_share():
         ("wrong", 0),
         ("correct", 1),
     ]
+
+
+HEX = {"kind": "number", "value": "57", "exact": True, "base": 16, "traps": {"no-carry": "41"}}
+BINARY = {"kind": "number", "value": "57", "exact": True, "base": 2}
+
+
+@pytest.mark.parametrize(("spec", "typed", "verdict", "note"), [
+    (HEX, "39", "correct", ""), (HEX, "c = 0x39", "correct", ""), (HEX, "(39)_16", "correct", ""),
+    (HEX, "39h", "correct", ""), (HEX, "29", "wrong", "trap:no-carry"), (HEX, "57", "wrong", ""),
+    (HEX, "57_10", "unreadable", "digits-expected"), (HEX, "3G", "unreadable", "digits-expected"),
+    (HEX, "", "unreadable", "no-answer"), (BINARY, "111 001", "correct", ""),
+    (BINARY, "0b111001", "correct", ""), (BINARY, "111001₂", "correct", ""),
+    (BINARY, "57", "unreadable", "digits-expected"),
+])  # fmt: skip
+def test_a_number_of_another_base_is_typed_in_its_digits(spec, typed, verdict, note):
+    found = grade_answer(spec, typed)
+    assert (found.verdict, found.note) == (verdict, note)

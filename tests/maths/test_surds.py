@@ -71,3 +71,13 @@ def test_the_last_of_several_formulas_needs_no_condition():
     cases = sympy.Piecewise((x, sympy.Eq(k, 1)), (2 * x, sympy.Eq(k, 2)))
     with pytest.raises(BankError, match="must hold otherwise"):
         Model(given={k: ""}, free=("x",), steps=(Step("f", cases),)).chain()
+
+
+@pytest.mark.parametrize(("typed", "tidy"), [
+    ("x^2 - 3*x - 2*x + 6", "x^2 - 5*x + 6"), ("x^2 + 3*x - 3*x + 1", "x^2 + 1"),
+    ("x/2 + x/3", "{5/6}*x"), ("-x - x", "-2*x"), ("3*x^2*y + x^2*y - 5", "4*x^2*y - 5"),
+    ("a*x + b*x", "a*x + b*x"), ("x + x^2", "x + x^2"), ("exp(x) - x", "exp(x) - x"),
+])  # fmt: skip
+def test_like_terms_are_put_together(typed, tidy):
+    found = tidy_formula(parse_formula(typed, symbols=("a", "b", "x", "y")))
+    assert format_tree(found) == tidy

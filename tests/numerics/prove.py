@@ -29,7 +29,7 @@ from quizgen.numerics import gaussian, quintic, tables
 
 PROOFS = Path(__file__).with_name("proofs.tsv")
 DOCS = Path(__file__).parents[2] / "docs/accuracy.md"
-HEAD = "  | kernel | relative error, in 2^-53 | boxes | rounds |\n  |---|---|---|---|\n"
+HEAD = "| kernel | relative error, in 2^-53 | boxes | rounds |\n|---|---|---|---|\n"
 COMPENSATED = arb(2) ** -80
 
 
@@ -164,7 +164,7 @@ def worst(piece):
 def table():
     """Rows of the record, as the documents print them."""
     rows = (line.split("\t") for line in PROOFS.read_text().splitlines())
-    return "\n".join(f"  | {' | '.join(row)} |" for row in rows)
+    return "\n".join(f"| {' | '.join(row)} |" for row in rows)
 
 
 def main():

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from functions import FUNCTIONS, function
 from oracle import reference
-from sweep import together
+from sweep import sample, together
 from ulp import ulps
 
 from quizgen import numerics
@@ -202,7 +202,7 @@ def test_strides_of_what_may_not_be_written(name, stride):
 
 
 @pytest.mark.slow
-@together("name", FUNCTIONS)
+@together("name", sample(FUNCTIONS, 4))
 def test_ten_million_elements(name):
     """A result of eight bytes an element, and no more than a few blocks besides."""
     columns = [np.resize(column, MILLIONS) for column in drawn(name, 100_003)]

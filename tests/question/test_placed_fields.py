@@ -161,11 +161,16 @@ def test_in_print_blanks_are_ruled_and_options_have_boxes(paper):
     assert render_paper_pdf(paper, "solutions").startswith(b"%PDF")
 
 
-def test_courses_get_blanks_in_the_text_and_fields_below(paper):
+def test_moodle_has_the_fields_in_the_text_and_other_courses_below(paper):
     item = ExportItem("t.en", "t", paper.items[0].questions[0], paper.items[0].keys[0])
     (moodle,) = moodle_questions(item)
-    assert "the (a)\u00a0____." in moodle.text
-    assert moodle.text.count(":SHORTANSWER:") == 1
+    text = re.sub(r"\{[^}]*:([A-Z]+):[^}]*\}", r"<\1>", str(moodle.text))
+    assert "the (a)\u00a0<SHORTANSWER>." in text
+    assert "<td>(c)\u00a0<MULTICHOICE></td><td>(d)\u00a0<NUMERICAL> m</td>" in text
+    assert "____" not in text
+    assert re.findall("<([A-Z]+)>", text) == [
+        "SHORTANSWER", "MULTICHOICE", "MULTICHOICE", "NUMERICAL", "NUMERICAL",
+    ]  # fmt: skip
     canvas = list(canvas_questions(item))
     assert len(canvas) == 5
     assert all("(a)\u00a0____" in one.html for one in canvas[:4])
@@ -214,7 +219,25 @@ def test_a_field_stands_neither_in_a_stem_nor_in_a_solution(tmp_path):
         compose_question(bank.reload().template("tide"), 1)
 
 
-def test_a_field_of_several_values_cannot_stand_in_a_sentence(tmp_path):
+def test_fields_of_moodle_stand_below_where_the_text_has_another_order(tmp_path):
+    section = SECTION.replace("{{ ?a }}", "{{ ?x }}").replace("{{ ?b }}", "{{ ?a }}")
+    bank = make_bank(tmp_path, section.replace("{{ ?x }}", "{{ ?b }}"))
+    item = ExportItem("t.en", "t", *compose_question(bank.template("tide"), 1))
+    (moodle,) = moodle_questions(item)
+    assert moodle.text.count("____") == 5
+    assert moodle.text.count(":SHORTANSWER:") == 1
+
+
+def test_a_point_in_a_sentence_is_one_line(tmp_path):
+    rules = TIDE.replace('{ kind = "number", of = "q", exact = true }',
+                         '{ kind = "point", of = ["d", "q"], exact = true }')  # fmt: skip
+    question, key = compose_question(make_bank(tmp_path, SECTION, rules).template("tide"), 1)
+    assert not question.parts[4].field.control.boxes
+    h = int(re.search(r"is (\d)", "".join(blocks_to_plain_text(question.stem)))[1])
+    assert grade_answer(key.specs[4], f"({2 * h}; {2 + h})").verdict == "correct"
+
+
+def test_names_of_several_values_cannot_stand_in_a_sentence(tmp_path):
     rules = TIDE.replace('{ kind = "number", of = "q", exact = true }',
                          '{ kind = "table", of = { D = "d", Q = "q" }, exact = true }')  # fmt: skip
     bank = make_bank(tmp_path, SECTION, rules)

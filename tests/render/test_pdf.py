@@ -83,3 +83,16 @@ def test_english_papers_carry_no_bangla_font(bank):
 def test_one_question_is_counted_as_one(bank, lang, said):
     paper = single_question_paper(bank.template("point-to-image-plane"), 0, lang)
     assert f", {said}. " in pdf._TypstPaper(paper, "exam").source()
+
+
+def test_a_field_in_a_sentence_stands_once_on_a_bilingual_paper(bank, tmp_path):
+    named = '["complete-table-of-mixing", "rods-cones-and-peaks"]'
+    plan = f'[title]\nen = "A"\nbn = "B"\n[[slot]]\ntemplates = {named}\ncount = 2\n'
+    (tmp_path / "two.toml").write_text(plan, "utf-8")
+    blueprint = load_blueprint(str(tmp_path / "two.toml"))
+    alone, both = (
+        pdf._TypstPaper(build_paper(bank, blueprint, 3, lang), "exam").source()
+        for lang in ("en", "both")
+    )
+    for field in ("#blank(", "#gap;"):
+        assert both.count(field) == alone.count(field) > 0

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from fontTools.ttLib import TTFont
+from sweep import sample
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.core.errors import RenderError
@@ -31,7 +32,7 @@ def characters(name: str) -> set[str]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", sample(NAMES, 2))
 def test_the_packed_font_is_what_the_command_makes(name):
     """Packing takes up to 3 CPU s; that is why the fonts are kept."""
     source, wanted = list_sources()[fonts.packed_font_path(name)]

@@ -362,8 +362,14 @@ def test_powers_of_units_stand_above_the_line(unit, printed):
     assert format_unit(unit) == printed
 
 
-def test_the_normal_distribution_has_its_letter():
-    x = Sym("x")
+def test_distributions_have_their_letters():
+    x, m, n = map(Sym, "xmn")
     assert to_text(lay_out(Call("normal_cdf", (x,)))) == "Φ(x)"
     assert to_text(lay_out(Call("normal_quantile", (x,)))) == "Φ⁻¹(x)"
+    assert to_text(lay_out(Call("t_cdf", (x, n)))) == "P(Tₙ ≤ x)"
+    assert to_text(lay_out(Call("t_quantile", (x, n)))) == "t_(n; x)"
+    assert to_text(lay_out(Call("f_cdf", (x, m, n)))) == "P(F_(m, n) ≤ x)"
+    assert to_text(lay_out(Call("chi2_cdf", (x, n)))) == "P(χₙ² ≤ x)"
+    assert to_text(lay_out(Call("besselj", (n, x)))) == "Jₙ(x)"
+    assert to_text(lay_out(Call("gamma", (x,)))) == "Γ(x)"
     assert to_speech(lay_out(Call("normal_cdf", (x,)))) == "normal distribution function of x"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import re
-from datetime import timedelta
+from datetime import datetime, timedelta
 
 import msgspec
 import pytest
@@ -142,3 +142,20 @@ def test_the_end_of_a_block_counts_what_had_gone_wrong_before():
     seen = [outcome("mended", 5, right=False), outcome("always", 5, right=True), outcome("always", 40, right=False),
             outcome("wrong", 5, right=False)]  # fmt: skip
     assert block.count_mended(seen) == 1
+
+
+@pytest.mark.parametrize(
+    ("days_ago", "told"),
+    [((0, 1, 1, 2, 4), "3 days in a row"), ((1, 2), "2 days in a row"), ((2, 3), "")],
+)
+def test_days_in_a_row_end_today_or_yesterday(client, app, monkeypatch, days_ago, told):
+    store = app.state.site.store
+    noon = datetime.now().astimezone().replace(hour=12).timestamp()
+    attempts = [
+        AttemptRecord(str(n), 1, POINT, "1", "exam", {}, {}, noon - 86400 * days, ended=noon)
+        for n, days in enumerate(days_ago)
+    ]
+    monkeypatch.setattr(store, "latest", lambda _learner, most: attempts[:most])
+    page = text(client.get("/").text)
+    assert told in page
+    assert ("in a row" in page) == bool(told)

@@ -92,7 +92,7 @@ def press(page, *keys: str) -> None:
         assert page.evaluate("[window.stays, scrollY]") == [True, 60]
 
 
-@pytest.mark.parametrize("students", [draws(10, full=300)])
+@pytest.mark.parametrize("students", [draws(6, full=300)])
 def test_two_markers_work_through_all_sentences_by_keys(browser, barriers, tmp_path, students):
     folder = make_class(tmp_path, students)
     server = Served(f"sqlite:///{tmp_path / 'l.sqlite3'}", "--class", str(folder), "--workers", "1")

@@ -234,6 +234,7 @@ class TestServer:
             time.sleep(0.05)
         assert browser.begin() not in old
 
+    @pytest.mark.slow
     def test_another_version_drops_what_was_made_by_it(self, serve, monkeypatch):
         old = serve().wait_for_stock(2)
         monkeypatch.setattr("quizgen.__version__", "99.0")

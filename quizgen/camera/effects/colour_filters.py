@@ -129,7 +129,7 @@ def omission_bound(signal: Signal, view: View) -> float:
 
 
 def range_after(signal: Signal, view: View) -> Signal:
-    """Return the range between the smallest and the largest sum of a row, times the signal."""
+    """Return the signal's range times the smallest and the largest sum of a row of the matrix."""
     rows = _camera_matrix(view).sum(axis=1)
     return signal.scale_range(float(rows.min()), float(rows.max()))
 

@@ -30,7 +30,7 @@ def make_gain_effect(
     name : str
     factor : callable
         What a camera multiplies by.
-    settings : tuple of Setting
+    settings : tuple of AnySetting
         What the factor depends on.
     *answers : str
         Kinds of question whose answer it is.

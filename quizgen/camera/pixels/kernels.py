@@ -94,7 +94,8 @@ def disc_kernel(diameter: float) -> BlurKernel:
     Parameters
     ----------
     diameter : float
-        Diameter of the circle of confusion in px, >= 0; the sign is ignored.
+        Of the circle of confusion, px, at most `LARGEST_BLUR`; its sign says on which side of the
+        plane of focus, and is ignored.
 
     Returns
     -------

@@ -20,7 +20,7 @@ def entry_note(
 
     Parameters
     ----------
-    wish : Wish
+    wish : DeckRequest
     entry : Entry
     kind : str
         The kind of card, which is also the first half of its key.

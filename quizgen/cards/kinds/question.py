@@ -46,7 +46,7 @@ def template_notes(template: Template, wish: DeckRequest) -> Iterator[Note]:
     Parameters
     ----------
     template : Template
-    wish : Wish
+    wish : DeckRequest
         Its seed fixes the numbers; the notes' identity does not depend on them.
     """
     drawn = draw_instance(template, wish.seed, SLOT)

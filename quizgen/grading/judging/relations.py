@@ -254,7 +254,7 @@ def solve_for(relation: Relation, name: str) -> tuple[Expr, ...]:
     if sum(counts) == 1:
         own, other = sides if counts[0] else sides[::-1]
         return tuple(_isolate(own, other, name))
-    top, _ = _as_fraction(relation.difference)
+    top, _ = as_fraction(relation.difference)
     at_0, at_1 = (substitute(top, {name: value}) for value in (_ZERO, _ONE))
     return (Call("div", (at_0, Call("sub", (at_0, at_1)))),)
 
@@ -325,11 +325,11 @@ _INVERSES: dict[str, Any] = {
 """Functions of one argument to what undoes them."""
 
 
-def _as_fraction(tree: Expr) -> tuple[Expr, Expr]:
+def as_fraction(tree: Expr) -> tuple[Expr, Expr]:
     """Return a formula as numerator and denominator, nothing cancelled."""
     if not isinstance(tree, Call):
         return tree, _ONE
-    parts = [_as_fraction(arg) for arg in tree.args]
+    parts = [as_fraction(arg) for arg in tree.args]
     if tree.op == "neg":
         return Call("neg", (parts[0][0],)), parts[0][1]
     if tree.op == "div":

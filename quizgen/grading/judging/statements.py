@@ -1084,16 +1084,19 @@ def used_synonyms(groups: Mapping[str, Sequence[str]], texts: Iterable[str]) -> 
     groups : mapping of str to sequence of str
     texts : iterable of str
     """
-    used = frozenset[str]().union(
-        *(_stems(token.text) for text in texts for token in split_tokens(text))
-    )
+    used = frozenset[str]().union(*(_list_stems(text) for text in texts))
     return [
         name
         for name, group in groups.items()
-        if any(
-            _stems(word) & used
-            for row in group
-            for word in (token.text for token in split_tokens(row))
-            if word not in _vocabulary().fillers
+        if not used.isdisjoint(
+            frozenset().union(*(_list_stems(row, with_fillers=False) for row in group))
         )
     ]
+
+
+@lru_cache(1 << 13)
+def _list_stems(text: str, *, with_fillers: bool = True) -> frozenset[str]:
+    """Return the stems of the words of a text, cached: every paper asks for the same ones."""
+    fillers = frozenset[str]() if with_fillers else _vocabulary().fillers
+    words = (token.text for token in split_tokens(text))
+    return frozenset[str]().union(*(_stems(word) for word in words if word not in fillers))

@@ -79,10 +79,7 @@ _IDLE = frozenset(
         "হয়",
         "হবে",
         "হয়ে",
-        "হয়",
-        "হয়ে",
         "যাব",
-        "যায়",
         "যায়",
         "আর",
         "ও",
@@ -236,9 +233,7 @@ def _says_enough(
     word of its own only with two thirds of these, more of them only with all.
     """
     exact = {
-        word
-        for word in wording
-        if len(word) == 1 or not (word.isalpha() or _BANGLA.match(word))
+        word for word in wording if len(word) == 1 or not (word.isalpha() or _BANGLA.match(word))
     }
     own = _own_words(frozenset(wording), listed)
     said = own & meant
@@ -303,13 +298,17 @@ _BANGLA_ENDING = re.compile(
 """What a case, a number or a stress adds to a Bangla word."""
 
 
+_SAME = {"bigger": "larger", "biggest": "largest", "big": "large", "gray": "grey", "pic": "picture"}
+"""Words that say the same."""
+
+
 def _fold(token: str) -> str:
     """Return a word without the ending of its plural and without spelling variants."""
     if _BANGLA.match(token):
         return _BANGLA_ENDING.sub("", token)
     if not token.isalpha():
         return token
-    word = fold_word(token)
+    word = _SAME.get(token, fold_word(token))
     return (
         word.removesuffix("s") if len(word) > len("axis") - 1 and not word.endswith("ss") else word
     )

@@ -68,7 +68,7 @@ _WORD = re.compile(rf"{_LETTERS}+(?:['’-]{_LETTERS}+)*")
 _DIGITS = LITERAL.pattern.removesuffix(r"\.?")
 _FOUND = re.compile(
     rf"(?<![\w.,^/*])[-+]?(?:{_DIGITS})(?:[eE][-+]?\d+)?"
-    r"(?: ?[*·×] ?10)?(?: ?\^ ?\(?[-+]?\d+\)?)?(?: ?/ ?\d+)?(?![\w^(])|"
+    r"(?: ?[*·×] ?10)?(?: ?\^ ?\(?[-+]?\d+\)?)?(?: ?/ ?\d+)?(?![\w^(]|[.,]\d)|"
     rf"(?<![\w.,^/*])[-+]?(?:{_DIGITS})(?=[^\W\d_])"
 )
 _GROUPED = re.compile(r"(?<![\d.,])\d{1,3}([.,])\d{3}(?:\1\d{3})+(?![\d.,]?\d)")
@@ -80,8 +80,8 @@ _LABEL = re.compile(
 _BEHIND = re.compile(rf"([-+−]?\d+(?:[.,]\d+)?) ?((?:{_LETTERS})+'*(?:_[^\W_]+'*)?)(?:[ ,;]+|$)")
 _LONG_LABEL = re.compile(rf"(?:{_LETTERS}+ ){{1,2}}({_LETTERS}+)(?: ?[:=] ?| )(?=[-+−]?[.,]?\d)")
 _LABELLED = re.compile(rf"(.*\d.*?)[ (]+(?:for |für )?((?:{_LETTERS})+'*(?:_[^\W_]+'*)?)\)?")
-_PARTED = re.compile(r"[;\n]|,(?!\d)| (?:and|und|ও|এবং) ")
-_JOINED = re.compile(r"[ ,;]*(?:(?<![\w\u0980-\u09ff])(?:and|und|ও|এবং))?[ ,;]*$")
+_PARTED = re.compile(r"[;\n]|,(?!\d)| (?:and|und|ও|এবং|আর) ")
+_JOINED = re.compile(r"[ ,;]*(?:(?<![\w\u0980-\u09ff])(?:and|und|ও|এবং|আর))?[ ,;]*$")
 _FEWEST = 2
 """Labelled values that are no slip."""
 _MOST_WORDS = 14
@@ -135,16 +135,17 @@ def _load_around_words() -> _AroundWords:
 
 
 _NO_UNIT_BEFORE_A_WORD = frozenset({"in", "a", "as", "at", "am", "um", "d", "to", "so", "is"})
+_IN_UNIT = re.compile(r"(?<=\d) ?\(? ?in ([^\W\d_°]+|°)\)?$", re.IGNORECASE)
+_CLOCK = re.compile(r"(\d{1,2}):([0-5]\d) ?h")
 _ROUNDING = re.compile(
     r"[ ,(]+(?:rounded|gerundet) (?:to|auf) \w+ (?:significant |signifikante )?"
     r"(?:decimal|digit|figure|place|stelle|nachkommastelle|ziffer)s?n?(?: places)?\)?$",
     re.IGNORECASE,
 )
-_PLUS_MINUS = re.compile(r"^(?:±|\+/?[-−]) ?(?=[\d.])")
-"""Before a deviation, which is given without a sign."""
 _BECOMING = re.compile(
     r"^([^\d]*(?:drop|fall|rise|wrap|goe|come|grow|change|sink|amount|shrink|increase|decrease|lead|"
-    r"saturate|clip|clamp|round)(?:s|ed|ped|es)?(?: (?:around|round|down|up|back|over|it))?) to (?=[-+−≈~]?[.,]?\d)",
+    r"saturate|clip|clamp|round)(?:s|ed|ped|es)?"
+    r"(?: (?:around|round|down|up|back|over|it))?) to (?=[-+−≈~]?[.,]?\d)",
     re.IGNORECASE,
 )
 """What tells where a value goes, ``it drops to 208``: ``to`` is no range then."""
@@ -199,6 +200,9 @@ def list_plainer_texts(
             yield from separate_labelled_values(spelt, names)
             yield from rejoin_values(spelt, len(names), ranges=ranges)
             yield from bind_values(spelt, names, scan_numbers)
+            last = _LAST_LIST.fullmatch(spelt)
+            if last:
+                yield last[1]
         else:
             yield from _single_answer(spelt, form)
             yield from _find_conclusion(spelt)
@@ -206,15 +210,16 @@ def list_plainer_texts(
 
 def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
     """Yield the one number among words; a quantity needs its unit if words follow."""
-    shown = _PLUS_MINUS.sub("", text)
-    if shown != text:
-        yield shown
     named_by, text = text, _BECOMING.sub(r"\1 ", _ROUNDING.sub("", _NAMED.sub("", text)))
+    text = _IN_UNIT.sub(r" \1", text)
     if text != named_by:
         yield text
     remarked = _REMARKED.fullmatch(text)
     if remarked and _is_idle_remark(remarked[2]):
         yield remarked[1]
+    clock = _CLOCK.fullmatch(text)
+    if clock:
+        yield add_mixed_units(f"{int(clock[1])} h {int(clock[2])} min")
     found, around = scan_numbers(text)
     around = [*around[:-1], _DISTANCE.sub(" ", around[-1])]
     if len(found) != 1 or found[0] == text or not _can_be_dropped(around):
@@ -233,7 +238,8 @@ def _find_conclusion(text: str) -> Iterator[str]:
 
 
 _CONCLUDED = re.compile(
-    r".*\d.*?[,;.]? (?:so|thus|hence|therefore|daher|deshalb|তাই|সুতরাং),? (?P<rest>[^,;]*\d[^,;]*)",
+    r".*\d.*?[,;:.]? (?:exactly|precisely|genau|so|thus|hence|therefore|daher|deshalb|তাই|সুতরাং)"
+    r",? (?P<rest>[^,;]*\d[^,;]*)",
     re.IGNORECASE | re.DOTALL,
 )
 
@@ -364,12 +370,12 @@ def _write_item_as_number(piece: str) -> str:
     return piece if spelt == plain else f"{'-' if plain != piece else ''}{spelt}"
 
 
-_REMARKED = re.compile(
-    r"([-+−]?\d[^()]*?) ?\(([^\W\d][^()\d]*|(?:from |aus |\d+ ?%? (?:of|von) )[^()]*)\)"
-)
+_REMARKED = re.compile(r"([-+−]?\d[^()]*?) ?\(([^\W\d][^()]*|\d+ ?%? (?:of|von) [^()]*)\)")
 _REMARK = re.compile(r"(?<=\d) ?\([^\W\d][^()\d;,]*\)")
 _MINUS = re.compile(r"(?<![^\W\d_])(?:minus|মাইনাস) (?=[.,]?\d)", re.IGNORECASE)
-_ITEMS = re.compile(r"([;,\n] *| (?:and|und|ও|এবং) )")
+_LAST_LIST = re.compile(r".*\d.*= ?(\([^()=]+\)|\[[^\[\]=]+\])", re.DOTALL)
+"""The list at the end of equal ones: ``2·(1; 3) = (2; 6)``."""
+_ITEMS = re.compile(r"([;,\n] *| (?:and|und|ও|এবং|আর) )")
 
 
 def separate_labelled_values(text: str, names: AskedNames) -> Iterator[str]:
@@ -405,7 +411,11 @@ def _write_each_letter(text: str, names: AskedNames) -> str:
     if match is None or len(match[1]) != len(names):
         return text
     meant = [find_name(letter.lower(), names) for letter in match[1]]
-    values = [value for value in re.split(r"[;/|]|,(?!\d)| +(?=[-\d.])", match[2].strip(" ()[]")) if value.strip()]
+    values = [
+        value
+        for value in re.split(r"[;/|]|,(?!\d)| +(?=[-\d.])", match[2].strip(" ()[]"))
+        if value.strip()
+    ]
     if not all(meant) or len({*meant}) < len(meant) or len(values) != len(meant):
         return text
     return "; ".join(f"{name} = {value.strip()}" for name, value in zip(meant, values, strict=True))

@@ -151,12 +151,20 @@ def _iter_lenient_sides(source: SourceText, decimal: str) -> Iterator[EqualitySi
             sides.append(side)
         elif not _LETTER.search(piece.text) or (piece is pieces[-1] and len(piece.text) > 3):
             return
-    units = [side.quantity.unit for side in reversed(sides) if side.quantity.unit]
-    unit = units[0] if units and units[0].text != "%" else None
-    for side in sides:
-        yield EqualitySide(
-            TypedQuantity(side.quantity.number, side.quantity.unit or unit), side.readings
-        )
+    yield from reversed([*_give_units(sides)])
+
+
+def _give_units(sides: list[EqualitySide]) -> Iterator[EqualitySide]:
+    """Yield the sides from the last on; one without a unit has that of the next one with one.
+
+    Behind the last unit there is only the one before it.
+    """
+    units = [side.quantity.unit for side in sides if side.quantity.unit]
+    unit = units[-1] if units and units[-1].text != "%" else None
+    for side in reversed(sides):
+        own = side.quantity.unit
+        unit = own if own and own.text != "%" else unit
+        yield EqualitySide(TypedQuantity(side.quantity.number, own or unit), side.readings)
 
 
 def _split_at_equal_signs(source: SourceText) -> Iterator[SourceText]:
@@ -216,7 +224,7 @@ def _check_sides_agree(source: SourceText, sides: list[EqualitySide]) -> None:
 
 
 def _is_rounded_to(source: SourceText, before: EqualitySide, side: EqualitySide) -> bool:
-    """Return whether a whole number behind an arrow or ≈ is the one before it, rounded: ``2.8 → 3``."""
+    """Return whether a whole number behind an arrow or ≈ rounds what is before it: ``2.8 → 3``."""
     whole = side is not before and side.readings.main.form == "integer"
     if not whole or not _ROUNDED.search(source.text):
         return False
@@ -228,8 +236,10 @@ def _is_rounded_to(source: SourceText, before: EqualitySide, side: EqualitySide)
 _ROUNDED = re.compile(r"(?:→|->|≈|=>|⇒) ?[-−]?\d+(?![.,]?\d)[^\d=]*$")
 
 
-def _without_percent(first: EqualitySide, second: EqualitySide) -> tuple[EqualitySide, EqualitySide]:
-    """Return two sides of which only one has a percent sign as plain numbers: ``100 - 68 = 32 %``."""
+def _without_percent(
+    first: EqualitySide, second: EqualitySide
+) -> tuple[EqualitySide, EqualitySide]:
+    """Return two sides as plain numbers if only one has a percent sign: ``100 - 68 = 32 %``."""
     if _is_percent(first) == _is_percent(second):
         return first, second
     one, other = map(_drop_percent, (first, second))

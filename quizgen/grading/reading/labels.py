@@ -43,6 +43,12 @@ def name_key(name: str) -> str:
     return _INSIDE.sub("", fold_name(name))
 
 
+def _prime_last(name: str) -> str:
+    """Return the spelling by which a prime may stand before or behind an index: ``px'``."""
+    key = name_key(name).lower()
+    return key.replace("'", "") + "'" * key.count("'")
+
+
 @cache
 def _letters_of_words() -> dict[str, str]:
     """Return the letters that a word may stand for, from every language.
@@ -80,7 +86,7 @@ def find_name(typed: str, names: AskedNames) -> str:
     that is enough (``x`` for ``p'_x``, ``u`` for ``u_A``), and so is the word for it (``red``), or
     what the question calls it (``levels`` where it asks for the levels n).
     """
-    for same in (name_key, lambda name: name_key(name).lower()):
+    for same in (name_key, lambda name: name_key(name).lower(), _prime_last):
         wanted = same(typed)
         found = [name for name in names if same(name) == wanted]
         if len(found) == 1:

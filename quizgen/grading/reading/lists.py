@@ -15,7 +15,7 @@ BRACKETS = {"(": ")", "[": "]", "{": "}", "<": ">"}
 _HARD = re.compile(r"[;|\n]")
 _COMMA = re.compile(r",")
 _BLANK_BEFORE = re.compile(r" +(?=[,;|])")
-_JOINING = re.compile(r"[,;]? (?:and|und|&|এবং|ও) ")
+_JOINING = re.compile(r"[,;]? (?:and|und|&|এবং|ও|আর) ")
 _UNIT_BEHIND = re.compile(r"[^;,|\d(\[{]*| ?[\[(][^;,|\d\[\](){}]+[\])]")
 _NAMES = re.compile(rf"\(? ?({NAME}(?: ?[,;|] ?{NAME})+) ?\)? ?(?::=|[=:≈]) ?(?=\S)")
 _FRONT = re.compile(rf"({NAME})(?: {NAME})* ?(?::=|[=:≈])? ?(?=[(\[{{<])")

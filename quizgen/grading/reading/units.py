@@ -289,7 +289,11 @@ def read_unit(text: str) -> TypedUnit:
     FormulaError
         If a name in it is not listed.
     """
-    return _parse_typed_unit(active_units(), text.strip())
+    return _parse_typed_unit(active_units(), _INTO.sub(r"\1", text.strip()))
+
+
+_INTO = re.compile(r"^\(?in +([^()]+)\)?$")
+"""The unit that a number is said to be in, ``(in degrees)``: no inch."""
 
 
 @lru_cache(maxsize=2048)

@@ -45,7 +45,7 @@ def make_choice_part(
         What is asked.
     options : sequence of LevelOption
         In the order in which they are shown.
-    lines : tuple of Line
+    lines : tuple of SolutionStep
         The worked lines of its solution.
     """
     marked = dict(zip(LETTERS, options, strict=False))

@@ -50,8 +50,8 @@ def draw_formula_options(
 ) -> list[FormulaOption]:
     """Return the right formula and up to three wrong ones, in a drawn order.
 
-    The step has at least one wrong formula. A slip may replace the last, so that its length does
-    not tell which one is right.
+    The step has at least one wrong formula. Letters not in ``known`` are printed as numbers. A
+    slip may replace the last, so that its length does not tell which one is right.
     """
     ways = [right_option(drawn, step, known), *wrong_options(drawn, step, known)[: WAYS - 1]]
     key = f"{level_seed(drawn)}/{step.name}"
