@@ -30,6 +30,8 @@ _COUNTED_OFF = re.compile(r"(?:(?<=[\s,;])|^)\(?(\d)(?:[.)]|:(?! *\d+ *:)) +(?=[
 _ASSIGNED = re.compile(r"[=:≈] *$")
 _PARTED = re.compile(r"[;\n]|,(?!\d)| / |,? (?:and|und|ও|এবং|আর|with|mit|while|während) ")
 _WORDS = re.compile(rf"{_LETTER}+(?:'|_?\d|_{_LETTER}+)*(?![^\W_])|_\d")
+_UNFINISHED = re.compile(r"[-+−*/^·×÷=] *(?:[;,\n]|$)")
+"""A formula that somebody has not finished."""
 _MARK = "_"
 """Before the number of a place, which is no value then."""
 _JOINING = frozenset({"as", "is", "at", "in", "of", "to", "by", "it", "an", "on", "im", "am"})
@@ -70,7 +72,7 @@ def bind_values(text: str, names: AskedNames, scan: NumberScan) -> Iterator[str]
         Finds the numbers of a text, each with its unit.
     """
     asked = list(names)
-    if len(asked) < len(("one", "more")):
+    if len(asked) < len(("one", "more")) or _UNFINISHED.search(text):
         return
     marked = _mark_ordinals(text)
     for labelled in _list_labelled(marked, len(asked), scan):
