@@ -1,6 +1,6 @@
 """Change one place of the code at a time, and see whether a test notices.
 
-Run: ``nice uv run python tools/mutate.py`` (half an hour of CPU for 300). In a copy of what is
+Run: ``nice uv run python tools/mutate.py`` (20 minutes of CPU for 300). In a copy of what is
 committed, each place gets a switch between the text and its mutant; every file of tests runs once,
 which says who meets which switch; then each mutant meets those tests in a process of its own, the
 quickest first, until one fails that passes without it. ``mutants.tsv`` lists all: ``killed``,
