@@ -320,7 +320,11 @@ def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:
         number = _PLACES.index(place[1].lower()) + 1
         return [number] if number <= len(spec.choices()) else []
     named = _LETTER_LAST.fullmatch(text)
-    if named is None or says_otherwise(named["words"]) or _find_wording(spec, named["words"]):
+    if (
+        named is None
+        or says_otherwise(named["words"])
+        or _find_wording(spec, named["words"])
+    ):
         return []
     position = LETTERS.find(named["mark"]) + 1
     return [position] if position <= len(spec.choices()) else []
@@ -548,9 +552,7 @@ def _parse_labelled_option(spec: ChoiceSpec, piece: str) -> int:
     if not 1 <= position <= len(spec.choices()):
         return 0
     if not meant and mark.isupper() and not says_otherwise(match["words"]):
-        shared = share_words(
-            match["words"], [texts[position - 1] for texts in (spec.choices(), *spec.said)]
-        )
+        shared = share_words(match["words"], [texts[position - 1] for texts in (spec.choices(), *spec.said)])
         return position if shared else 0
     if not meant:
         return 0

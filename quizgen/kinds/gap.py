@@ -380,7 +380,9 @@ def _is_in_company(word: str, gap: Sequence[str], others: Sequence[str]) -> bool
     wrong = {fold_word(term) for term in others}
     for term in gap:
         wanted = [fold_word(piece) for piece in term.split()]
-        places = [i for i in range(len(words)) if words[i : i + len(wanted)] == wanted]
+        places = [
+            i for i in range(len(words)) if words[i : i + len(wanted)] == wanted
+        ]
         rest = [*words[: places[0]], *words[places[0] + len(wanted) :]] if places else []
         alone = len(wanted) == 1 and (places != [0] or len(rest) > 1)
         known = wrong & {*rest, "".join(rest)}

@@ -365,9 +365,7 @@ def _parse_numbered_lines(text: str) -> list[str]:
     """
     for shape, first, second in _PLACED:
         found = {one[first]: one[second] for one in shape.finditer(text)}
-        if not shape.sub("", text).strip(" ,;.") and {*map(int, found)} == {
-            *range(1, len(found) + 1)
-        }:
+        if not shape.sub("", text).strip(" ,;.") and {*map(int, found)} == {*range(1, len(found) + 1)}:
             return [found[place] for place in sorted(found, key=int)] if len(found) > 1 else []
     pairs = dict(_LINE.findall(text))
     whole = not _LINE.sub("", text).strip(" ,;.")

@@ -236,7 +236,9 @@ def _says_enough(
     word of its own only with two thirds of these, more of them only with all.
     """
     exact = {
-        word for word in wording if len(word) == 1 or not (word.isalpha() or _BANGLA.match(word))
+        word
+        for word in wording
+        if len(word) == 1 or not (word.isalpha() or _BANGLA.match(word))
     }
     own = _own_words(frozenset(wording), listed)
     said = own & meant

@@ -405,11 +405,7 @@ def _write_each_letter(text: str, names: AskedNames) -> str:
     if match is None or len(match[1]) != len(names):
         return text
     meant = [find_name(letter.lower(), names) for letter in match[1]]
-    values = [
-        value
-        for value in re.split(r"[;/|]|,(?!\d)| +(?=[-\d.])", match[2].strip(" ()[]"))
-        if value.strip()
-    ]
+    values = [value for value in re.split(r"[;/|]|,(?!\d)| +(?=[-\d.])", match[2].strip(" ()[]")) if value.strip()]
     if not all(meant) or len({*meant}) < len(meant) or len(values) != len(meant):
         return text
     return "; ".join(f"{name} = {value.strip()}" for name, value in zip(meant, values, strict=True))

@@ -23,9 +23,7 @@ _NUMBERED = re.compile(
     rf"|(?: {_LETTER}{{2,}})? [-+−]?\d)"
 )
 """A noun with its number before a value, ``pixel 1: 141``."""
-_NUMBERED_BEHIND = re.compile(
-    rf"(?:for|at|in|of|für|bei) ({_LETTER}{{2,}}) (\d)(?= *(?:[,;)\n]|and |und |$))"
-)
+_NUMBERED_BEHIND = re.compile(rf"(?:for|at|in|of|für|bei) ({_LETTER}{{2,}}) (\d)(?= *(?:[,;)\n]|and |und |$))")
 _COUNTED_OFF = re.compile(r"(?:(?<=[\s,;])|^)\(?(\d)(?:[.)]|:(?! *\d+ *:)) +(?=[-+−~≈]?[.,]?\d)")
 _ASSIGNED = re.compile(r"[=:≈] *$")
 _PARTED = re.compile(r"[;\n]|,(?!\d)| / |,? (?:and|und|ও|এবং|with|mit|while|während) ")
@@ -90,9 +88,7 @@ def _mark_ordinals(text: str) -> str:
     return _COUNTED_OFF.sub(rf"{_MARK}\1 ", text)
 
 
-def _list_labelled(
-    text: str, count: int, scan: NumberScan
-) -> Iterator[list[tuple[str, list[str]]]]:
+def _list_labelled(text: str, count: int, scan: NumberScan) -> Iterator[list[tuple[str, list[str]]]]:
     """Yield each way to give every number the words beside it.
 
     In pieces between separators these are all of a piece; else those before it, or behind it.

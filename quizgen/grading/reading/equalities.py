@@ -228,9 +228,7 @@ def _is_rounded_to(source: SourceText, before: EqualitySide, side: EqualitySide)
 _ROUNDED = re.compile(r"(?:→|->|≈|=>|⇒) ?[-−]?\d+(?![.,]?\d)[^\d=]*$")
 
 
-def _without_percent(
-    first: EqualitySide, second: EqualitySide
-) -> tuple[EqualitySide, EqualitySide]:
+def _without_percent(first: EqualitySide, second: EqualitySide) -> tuple[EqualitySide, EqualitySide]:
     """Return two sides of which only one has a percent sign as plain numbers: ``100 - 68 = 32 %``."""
     if _is_percent(first) == _is_percent(second):
         return first, second

@@ -22,9 +22,7 @@ Measured = tuple[Value, dict[str, int]]
 """A value in base units, and its dimension."""
 
 
-def read_quantity_formula(
-    source: SourceText, decimal: str
-) -> tuple[Readings, TypedUnit | None] | None:
+def read_quantity_formula(source: SourceText, decimal: str) -> tuple[Readings, TypedUnit | None] | None:
     """Return what a formula of quantities gives, in the first of its units that fits.
 
     None if it is no such formula: it has no unit or no sign of arithmetic, has two readings, or
@@ -119,10 +117,7 @@ class _Evaluator:
             more, other = self._read_factor()
             turned = 1 if sign == "*" else -1
             value = value * more if sign == "*" else value / more
-            powers = {
-                base: dimension.get(base, 0) + turned * other.get(base, 0)
-                for base in {*dimension, *other}
-            }
+            powers = {base: dimension.get(base, 0) + turned * other.get(base, 0) for base in {*dimension, *other}}
             dimension = {base: power for base, power in powers.items() if power}
         return value, dimension
 
