@@ -145,7 +145,7 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
-        if self.base != bases.TEN:
+        if self.base != bases.TEN and is_whole_number(parse_exact(self.value)):
             return bases.format_in_base(int(parse_exact(self.value).p), self.base)
         if self.exact and not self.percent and not is_number(self.value):
             return f"{pretty.format_constant(str(self.value))} {format_unit(self.unit)}".rstrip()

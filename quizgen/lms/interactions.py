@@ -15,7 +15,7 @@ from msgspec import structs
 
 from quizgen.bank.markdown import Inline, PlainText
 from quizgen.grading.reading import bases
-from quizgen.grading.spec import AnySpec, NumericSpec, ScalarSpec
+from quizgen.grading.spec import AnySpec, NumericSpec, ScalarSpec, is_whole_number
 from quizgen.grading.spec import VectorSpec as SeveralNumbers
 from quizgen.kinds import angle, choice, code, gap, match, number, order, point, table, vector
 from quizgen.kinds import quantity as quantities
@@ -240,8 +240,9 @@ def _number_interactions(spec: number.NumberSpec, solved: SolvedPart) -> tuple[I
         return (solved.as_manual("fraction"),)
     if spec.base != bases.TEN:
         wrong = tuple(
-            (structs.replace(spec, value=value, traps={}).show(), solved.mistakes.get(name, ()))
-            for name, value in spec.traps.items()
+            (bases.format_in_base(int(value.p), spec.base), solved.mistakes.get(name, ()))
+            for name, value in spec.trap_values(1)
+            if is_whole_number(value)
         )
         return (TextEntryInteraction((spec.show(),), wrong),)
     unit = "%" if spec.percent else spec.unit

@@ -30,6 +30,7 @@ FULL = [
     {"kind": "number", "sigfigs": 3, "value": "5", "unit": "px"},
     {"kind": "number", "value": "5", "base": 2},
     {"kind": "number", "value": "5", "counts": ["px", "level"]},
+    {"kind": "number", "exact": True, "value": "57", "base": 16},
     {"kind": "quantity", "bound": "most", "rel": "0.005", "value": "50", "unit": "mm", "bare": True,
      "traps": {"half": "25"}, "notes": NOTES, "of": ["f"]},
     {"kind": "angle", "bound": "least", "abs": "0.5", "value": "140", "period": "180", "of": ["H"]},
