@@ -16,7 +16,6 @@ from quizgen.maths.tolerance import Tolerance
 NOTES = {"en": {"half": "You took half."}, "bn": {"half": "অর্ধেক নিয়েছ।"}}
 
 FULL = [
-    {"kind": "number", "value": "10", "base": 2},
     {"kind": "rubric", "full": "2",
      "criteria": {"why": {"points": "2", "accept": ["since it falls"], "half": ["it falls"],
                           "refuse": ["it rises"], "follows": "what"},
