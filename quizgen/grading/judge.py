@@ -55,6 +55,10 @@ NAMING = frozenset({"cells", "coordinate"})
 """Notes that only name what is wrong."""
 
 
+FAR_TOO_LONG = 100_000
+"""Characters beyond what any kind reads, so that a megabyte costs no more to refuse."""
+
+
 def judge_answer(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict:
     """Return the verdict on one typed answer, in no language yet.
 
@@ -85,7 +89,7 @@ def _judge_as_written(spec: AnySpec, typed: str, options: GradingOptions) -> Ver
     learner is asked what was meant.
     """
     if len(typed) > LONGEST_PROSE:  # no answer is so long: nothing is searched for one in it
-        return _judge_text(spec, typed, options)
+        return _judge_text(spec, typed[:FAR_TOO_LONG], options)
     form = spec.written_as
     verdict = _judge_text(spec, _prepare(typed, form), options)
     doubtful = has_second_meaning if verdict.verdict == WRONG else is_range_of_shares
