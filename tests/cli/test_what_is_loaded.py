@@ -9,6 +9,7 @@ import pytest
 
 from quizgen.bank.bank import builtin_bank
 
+pytestmark = pytest.mark.slow  # each starts processes
 WALK = """
 import sys
 from quizgen.cli.main import main

@@ -14,6 +14,7 @@ import pytest
 from quizgen.kinds.grade import grade_answer, show_key
 from quizgen.maths.precision import working_precision
 
+pytestmark = pytest.mark.slow
 TABLES = sorted((Path(__file__).parent / "answers").glob("*.toml"))
 
 

@@ -18,7 +18,7 @@ from sweep import draws
 from quizgen.cli.classes import class_
 from quizgen.cli.main import COMMANDS as ALL
 
-FEW, MANY = 15, draws(50, full=3000)
+FEW, MANY = 8, draws(50, full=3000)
 NO_FILE = {"doctor", "schema", "tradeoff"}
 """Commands that read no file of a user."""
 ONLY_BEFORE_PAPERS = {"redraw"}

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from needed import absent
 from qti_cases import cases
+from sweep import sample
 
 from quizgen.lms.qti.dialect import QTI3
 from quizgen.lms.qti.item import item_identifier
@@ -49,7 +50,9 @@ def disagreements(page, item, xml: bytes):
 @pytest.mark.slow
 @pytest.mark.browser
 def test_the_player_marks_and_says_what_is_declared(items, player):
+    """Half of the items, spread evenly, unless all are asked for."""
     page, complaints = player
+    items = sample(items, (len(items) + 1) // 2)
     files, found = package_files(items, QTI3), []
     for item in items:
         found += disagreements(page, item, files[f"items/{item_identifier(item)}.xml"])

@@ -21,6 +21,7 @@ from quizgen.bank.bank import builtin_bank
 from quizgen.locale import list_languages, load_words
 from quizgen.maths.notation import parse_formula
 
+pytestmark = pytest.mark.slow
 ROOT = Path(__file__).parent.parent.parent
 NAMES = ("point-to-image-plane", "thin-lens-image-distance", "ccd-and-cmos-artefacts",
          "hsv-edit-effects")  # fmt: skip

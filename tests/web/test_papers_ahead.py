@@ -198,6 +198,7 @@ def serve(database, bank_folder, monkeypatch):
         began.pop().end()
 
 
+@pytest.mark.slow
 class TestServer:
     def test_exams_begin_with_papers_of_the_stock_which_is_filled_again(self, serve):
         browser = serve()
@@ -234,7 +235,6 @@ class TestServer:
             time.sleep(0.05)
         assert browser.begin() not in old
 
-    @pytest.mark.slow
     def test_another_version_drops_what_was_made_by_it(self, serve, monkeypatch):
         old = serve().wait_for_stock(2)
         monkeypatch.setattr("quizgen.__version__", "99.0")
