@@ -32,7 +32,7 @@ pytestmark = [
 ]
 
 COMMAND = Path(__file__).parent / "power" / "class_command.py"
-KILLS = int(os.environ.get("QUIZGEN_KILLS", "5"))
+KILLS = int(os.environ.get("QUIZGEN_KILLS", "3"))
 CUTS = max(2, KILLS // 5)
 SENTENCE = "blur-and-light-factors/b"
 STEPS = (

@@ -14,7 +14,7 @@ from run import LARGEST, LONGEST, tried, warm
 from sweep import draws
 
 CHUNK = 250
-LONG_CHUNK = 500
+LONG_CHUNK = 250
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -37,7 +37,7 @@ def test_a_mutant_is_a_located_error_or_the_right_result(first):
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
-@pytest.mark.parametrize("first", range(100_000, 100_000 + draws(500, full=100_000), LONG_CHUNK))
+@pytest.mark.parametrize("first", range(100_000, 100_000 + draws(250, full=100_000), LONG_CHUNK))
 def test_many_mutants_take_neither_long_nor_much(first):
     wrong, found = failures(range(first, first + LONG_CHUNK))
     assert not wrong

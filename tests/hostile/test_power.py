@@ -30,7 +30,7 @@ from quizgen.store.archive import read_archive
 HERE = Path(__file__).parent / "power"
 FILE = "learning.sqlite3"
 THREADS = 8
-KILLS = int(os.environ.get("QUIZGEN_KILLS", "5"))
+KILLS = int(os.environ.get("QUIZGEN_KILLS", "3"))
 CUTS = max(2, KILLS // 5)
 
 

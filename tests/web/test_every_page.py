@@ -112,7 +112,7 @@ def test_the_printed_answer_is_right(wrong, template):
     assert wrong(template, str(place), lang, level) == []
 
 
-@pytest.mark.parametrize("template", spread(NAMES, 0, slow=64))
+@pytest.mark.parametrize("template", spread(NAMES, 0, slow=40))
 def test_printed_answers_of_more_draws_are_right(wrong, template):
     for place in range(draws(1, full=20)):
         seed = str(place)

@@ -21,8 +21,6 @@ from quizgen.web.app import create_app
 from quizgen.web.auth import COOKIE, csrf_token
 from quizgen.web.settings import ServerSettings
 
-pytestmark = pytest.mark.both_databases
-
 BLUEPRINT = f"""[title]
 en = "Short"
 [[slot]]
@@ -66,6 +64,7 @@ def begin(store: Store, learner: int, blueprint: str = "mock", version: str = "v
     return store.stock.begin_exam(learner, blueprint, version, has_clock=True, pauses=True)
 
 
+@pytest.mark.both_databases
 class TestStock:
     def test_of_a_crowd_at_two_servers_each_gets_a_paper_of_their_own(self, stores):
         learners = add_learners(stores[0], 24)
