@@ -232,6 +232,11 @@ def test_a_program_is_judged_by_what_it_does(text, note, credit):
     assert "return (image" not in verdict.message, "no message gives the solution away"
 
 
+def test_invisible_characters_in_a_program_are_named():
+    verdict = grade_answer(SPEC, "def halve(image, by):\n    return \u202eimage")
+    assert (verdict.verdict, verdict.note) == ("unreadable", "bad-character")
+
+
 @linux
 def test_the_first_thing_that_is_wrong_is_shown_and_named():
     wrong = grade_answer(SPEC, "def halve(image, by):\n    return np.zeros_like(image) + 1\n")

@@ -136,6 +136,7 @@ def test_a_specification_cannot_be_changed():
         ({"kind": "table", "values": {"a": "1"}, "traps": {"half": "2"}}, "traps"),
         ({"kind": "match", "pairs": {"A": "1"}, "traps": {"half": "A2"}}, "traps"),
         ({"kind": "order", "steps": ["A", "B", "A"], "before": [["A", "B"]]}, "stands twice"),
+        ({"kind": "gap", "accept": [["hue"], []]}, "one word per gap"),
         ({"kind": "number", "value": "1", "colour": "red"}, "colour"),
         ({"kind": "number", "value": "1", "decimals": 1, "exact": True}, "only one of"),
     ],
@@ -143,6 +144,20 @@ def test_a_specification_cannot_be_changed():
 def test_what_has_the_wrong_shape_is_named(table, said):
     with pytest.raises(KeyFileError, match=said):
         load_spec(table)
+
+
+def test_what_is_typed_is_text():
+    with pytest.raises(TypeError, match="text is expected, not int"):
+        grade_answer({"kind": "number", "value": "1"}, 1)  # type: ignore[arg-type]
+
+
+def test_steps_are_named_by_their_letters_and_words_together():
+    table = {"kind": "order", "steps": ["A", "B"], "before": [["A", "B"]],
+             "words": {"A": "light falls in", "B": "charge is read"}}  # fmt: skip
+    right = grade_answer(table, "A light falls in, B charge is read")
+    other = grade_answer(table, "B charge is read, A light falls in")
+    assert (right.verdict, other.verdict) == ("correct", "wrong")
+    assert other.read_as == "B A"
 
 
 def test_every_kind_is_a_frozen_struct_that_leaves_out_defaults():

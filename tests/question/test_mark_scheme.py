@@ -115,6 +115,14 @@ def test_what_a_marker_accepts_is_what_is_graded_as_right(spec, said, beyond):
     assert grade_answer(spec, " ".join([beyond, *unit])).verdict != "correct"
 
 
+def test_of_an_exact_fraction_a_marker_hears_that_a_decimal_is_as_good():
+    said = [
+        KINDS["number"].accepted(NumberSpec(kind="number", value=value, exact=True), "en")
+        for value in ("1/3", "440")
+    ]
+    assert said == ["the same value as a fraction or as a decimal", ""]
+
+
 def test_a_value_read_off_a_plot_is_no_fraction_and_an_exposure_time_is_one():
     """Ten per cent are accepted of the first; cameras write the second so."""
     lamp = QuantitySpec(kind="quantity", value="1968/325", unit="mW", rel="12/100")

@@ -223,6 +223,8 @@ def test_who_watches_gives_time_pauses_and_takes_in(opened):
     tag = re.search(r"/seat/state\?tag=(\w+)", ada.page)[1]
     assert ada.get(f"/seat/state?tag={tag}").status_code == 204
     teacher.get(here)
+    assert teacher.post(here, do="withhold").status_code == 400, "that is for the whole class"
+    teacher.get(here)
     teacher.post(here, do="extend", minutes="7")
     assert ada.browser.get(f"/seat/state?tag={tag}").headers["hx-refresh"] == "true"
     left = float(re.search(r'data-left="([\d.]+)"', ada.get(at).text)[1])
