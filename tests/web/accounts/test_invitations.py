@@ -48,6 +48,7 @@ def test_an_invitation_can_be_withdrawn_and_grows_old(app, site, manager):
     assert len(name) == 2
     assert all(one not in link + old for one in name)
     manager.post("/people/withdraw", invitation=name[0])
+    assert sorted(Somebody(app).get(one).status_code for one in (link, old)) == [200, 410]
     with site.store.database.writing() as connection:
         connection.execute(update(INVITATION).values(until=time.time() - 1))
     assert {Somebody(app).get(one).status_code for one in (link, old)} == {410}
