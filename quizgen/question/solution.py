@@ -107,7 +107,7 @@ class SolvedMisconception(msgspec.Struct, frozen=True):
     own: tuple[Inline, ...] = ()
 
     @property
-    def said(self) -> tuple[Inline, ...]:
+    def listed_sentence(self) -> tuple[Inline, ...]:
         """Return the sentence for a list below the right answer: nothing is said twice there."""
         return self.own or self.sentence
 

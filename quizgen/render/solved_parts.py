@@ -254,7 +254,7 @@ def _typeset_why(one: PaperPart) -> str:
 def _typeset_wrong(wrong: SolvedMisconception, lang: str, points: Fraction) -> str:
     """Return a wrong answer, what it earns, and what is wrong with it."""
     shown, sentence = (
-        typst_passage(inlines_to_typst(said, lang)) for said in (wrong.shown, wrong.said)
+        typst_passage(inlines_to_typst(said, lang)) for said in (wrong.shown, wrong.listed_sentence)
     )
     earns = format_quarters(points * wrong.share, lang) if wrong.share else ""
     tall = _is_tall(shown + sentence)

@@ -142,4 +142,4 @@ def _iter_solution_lines(part: PartSolution, lang: str) -> Iterator[str]:
         yield f"   {inlines_to_plain_text(part.why)}"
     for mistake in (*part.reasons, *part.mistakes):
         value = f"{mistake.value}  " if mistake.shown else ""
-        yield f"   ! {value}{mistake.name}: {inlines_to_plain_text(mistake.said)}"
+        yield f"   ! {value}{mistake.name}: {inlines_to_plain_text(mistake.listed_sentence)}"

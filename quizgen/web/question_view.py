@@ -469,7 +469,10 @@ def _render_board(drawing: FieldPicture | None) -> Html:
 
 def _render_mistakes(mistakes: Iterable[SolvedMisconception], lang: str) -> list[tuple[Html, Html]]:
     """Return the shown value and the sentence of each misconception as HTML."""
-    return [(_render_inline(one.shown, lang), _render_inline(one.said, lang)) for one in mistakes]
+    return [
+        (_render_inline(one.shown, lang), _render_inline(one.listed_sentence, lang))
+        for one in mistakes
+    ]
 
 
 def _render_blocks(parts: tuple[Block, ...], lang: str) -> Html:

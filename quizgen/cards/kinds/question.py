@@ -177,7 +177,11 @@ def step_blocks(keys: list[QuestionKey], index: int) -> Iterator[Any]:
 
 def _describe_mistake(mistake: SolvedMisconception) -> tuple[Inline, ...]:
     """Return a wrong answer, if it is shown, and what is wrong with it."""
-    return (*mistake.shown, *([PlainText(" – ")] if mistake.shown else []), *mistake.said)
+    return (
+        *mistake.shown,
+        *([PlainText(" – ")] if mistake.shown else []),
+        *mistake.listed_sentence,
+    )
 
 
 def _build_extra_blocks(key: QuestionKey, index: int) -> CardBlocks:

@@ -805,7 +805,7 @@ class Statement:
         if not items:
             return None
         taken: list[int] = []
-        blocked = set[int]() if example.compared else self._compared
+        blocked = set[int]() if example.compared else self._compared_tokens
         for item in items:
             if item.scales:
                 continue
@@ -828,7 +828,7 @@ class Statement:
         return (0 if general and flips > 1 else sign), tuple(sorted(taken))
 
     @cached_property
-    def _compared(self) -> set[int]:
+    def _compared_tokens(self) -> set[int]:
         """Return the tokens of all clauses with which something is compared."""
         return {at for clause in self.clauses for at in clause.compared}
 
