@@ -136,6 +136,20 @@ def test_enter_keeps_and_changes_nothing_else(exam):
     expect(page.locator(".flagged")).to_have_count(0)
 
 
+def test_nothing_is_said_to_be_saved_while_it_waits(exam):
+    page = exam()
+    typed(page, 0, "12.5")
+    said = boxes(page).first.evaluate("""field => {
+        field.value = "13";
+        field.dispatchEvent(new Event("input", { bubbles: true }));
+        return document.getElementById("kept").textContent;
+    }""")
+    assert said == ""
+    expect(page.locator("#kept")).to_have_text(SAVED)
+    page.reload()
+    expect(boxes(page).first).to_have_value("13")
+
+
 def test_a_page_that_was_open_before_loses_nothing_of_another(exam):
     one = exam()
     two = one.context.new_page()

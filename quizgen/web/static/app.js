@@ -224,6 +224,7 @@ document.addEventListener("keydown", (event) => {
     part.addEventListener("input", () => {
       unsent.set(name, values(part));
       waiting.add(name);
+      if (said.textContent === form.dataset.saved) { said.textContent = ""; }
       overview();
       soon(400);
     });
