@@ -347,7 +347,7 @@ def _vector_interactions(spec: vector.ColumnSpec, solved: SolvedPart) -> tuple[I
     numbers = point.PointSpec(
         kind="point",
         values=[*spec.components],
-        exact=True,
+        **(spec.stated_rule() or {"exact": True}),
         traps={name: [*values] for name, values in spec.traps.items()},
     )
     return _numeric_interactions(numbers, solved, [])
