@@ -660,8 +660,8 @@ class Bank:
 def _add_asked_draws(chain: Chain, rules: Rules) -> Chain:
     """Return a chain that also knows what is asked and drawn, not solved: it has no steps."""
     asked = [name for part in rules.part for name in asked_quantities(part.answer)]
-    units = {**rules.draw, **rules.data}
-    drawn = {name: units[name].unit for name in asked if name in units}
+    units = {n: r.unit for n, r in rules.draw.items()} | {n: r.unit for n, r in rules.data.items()}
+    drawn = {name: units[name] for name in asked if name in units}
     more = {n: unit for n, unit in drawn.items() if n not in {*chain.given, *chain.by_name}}
     return msgspec.structs.replace(chain, given={**chain.given, **more}) if more else chain
 

@@ -50,9 +50,7 @@ def forms_agree(
                 forms_agree(a, b, rule=rule) for a, b in zip(first.args, second.args, strict=True)
             )
         )
-    if rule is not None and not names_in(first) | names_in(second):
-        return _numbers_agree(first, second, rule)
-    return _formulas_agree(first, second, relation)
+    return _formulas_agree(first, second, relation, rule)
 
 
 def _is_call(expr: Expr, op: str) -> bool:
@@ -101,13 +99,17 @@ def _numbers_agree(first: Expr, second: Expr, rule: Tolerance) -> bool:
     return a is not None and b is not None and abs(a - b) <= APART * rule.outer_width(a)
 
 
-def _formulas_agree(first: Expr, second: Expr, relation: str) -> bool:
+def _formulas_agree(
+    first: Expr, second: Expr, relation: str, rule: Tolerance | None = None
+) -> bool:
     """Return whether two formulas are related at every point where both have a value.
 
     ``relation`` is ``"constant"`` or ``"factor"`` if they may differ by one, anything else if they
-    must be equal. False if there is no such point.
+    must be equal: numbers by the rule, if there is one. False if there is no such point.
     """
     names = sorted(names_in(first) | names_in(second))
+    if rule is not None and not names:
+        return _numbers_agree(first, second, rule)
     pairs = []
     for turn in range(len(_POINTS) if names else 1):
         env = {n: _POINTS[(turn + 2 * i) % len(_POINTS)] for i, n in enumerate(names)}

@@ -6,7 +6,6 @@ import re
 from collections.abc import Collection
 from typing import TYPE_CHECKING
 
-import msgspec
 from flint import fmpq
 
 from quizgen.core.decoding import convert
@@ -15,7 +14,7 @@ from quizgen.grading.reading.normalise import normalise_typed
 from quizgen.grading.reading.numbers import ReadNumber, read_number
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.rounding import format_key
-from quizgen.grading.spec import VectorSpec, WordSpec
+from quizgen.grading.spec import WordSpec
 from quizgen.kinds.asking import precision_on_paper, rounding_hint
 from quizgen.kinds.contract import AuthoredAnswer, PartContext
 from quizgen.maths.constants import Scalar, parse_exact
@@ -104,10 +103,10 @@ class EntriesSpec(WordSpec, kw_only=True, frozen=True):
         return {name: number for name, number in found.items() if number is not None}
 
     @property
-    def tolerance(self) -> VectorSpec | None:
+    def tolerance(self) -> Tolerance | None:
         """The rule as kinds of numbers have it; None if none is stated."""
         stated = self.stated_rule()
-        return convert({"kind": "", "values": [], **stated}, VectorSpec) if stated else None
+        return convert(stated, Tolerance) if stated else None
 
     def hint_rounding(self, lang: str) -> tuple[str, ...]:
         """Return the sentence on rounding for pages; empty if no rule is stated."""

@@ -57,7 +57,7 @@ class AuthoredVector(AuthoredEntries, kw_only=True, tag="vector", frozen=True):
 
 
 class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
-    """Vector: ``components`` in order, how near each must be; ``up_to`` = scale for any multiple."""
+    """Vector: ``components``, how near each must be; ``up_to`` = scale for any multiple."""
 
     written_as: ClassVar[AnswerForm] = "formula"
 
