@@ -122,6 +122,9 @@ def test_a_determinant_and_an_inverse_are_computed_from_the_matrix(bank):
     assert drawn.values["d"] == int(matrix.det())
     rows = matrix.inv().tolist()
     assert note(spec, "; ".join(", ".join(map(str, row)) for row in rows))[0] == "correct"
+    rounded = "; ".join(", ".join(f"{float(x):.3f}" for x in row) for row in rows)
+    assert note(spec, rounded)[0] == "correct"
+    assert note(spec, rounded.replace(".", ".1", 1))[0] == "partial"
 
 
 def test_a_multiple_of_a_vector_counts_if_asked(bank):
@@ -179,6 +182,18 @@ def test_quantiles_sums_and_integrals_are_those_of_scipy(bank):
     integral, _ = scipy.integrate.quad(lambda k: sympy.exp(-p * k * k), 0, 1)
     assert s == pytest.approx(integral, rel=1e-12)
     assert drawn.template.chain.certainties == {"t": "ball", "w": "ball", "s": "checked"}
+
+
+def test_a_mistake_without_a_certain_value_is_left_out(bank):
+    """``acos`` of a product of roots over itself: a ball across 1."""
+    seen = set()
+    for seed in range(8):
+        drawn, spec = asked(bank, "edge", seed=seed)
+        a, b = (int(drawn.shown[name]) for name in "ab")
+        angle = math.acos((a * b + 2) / math.hypot(a, 1) / math.hypot(b, 2))
+        assert note(spec, f"{angle:.3f} rad") == ("correct", "")
+        seen |= {*spec.traps}
+    assert "first" in seen
 
 
 def test_what_sympy_needs_evaluated_is_computed():
