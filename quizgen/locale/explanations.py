@@ -7,6 +7,7 @@ and the English one, which has the names and numbers of the place, in brackets a
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Sequence
 from functools import cache
 
 import msgspec
@@ -38,5 +39,22 @@ def explain_diagnostic(diagnostic: Diagnostic, lang: str) -> Diagnostic:
     hint = diagnostic.hint
     if hint == CODES[diagnostic.code].hint:
         hint = "".join(found[1:])
-    message = f"{found[0].removesuffix('.')} ({diagnostic.message})"
+    message = explain_message(diagnostic.code, diagnostic.message, lang)
     return msgspec.structs.replace(diagnostic, message=message, hint=hint)
+
+
+def explain_message(code: str, message: str, lang: str) -> str:
+    """Return a message of a rule in a language, without what mends it."""
+    found = load_explanations(lang).get(code)
+    if lang == FIRST or found is None:
+        return message
+    return f"{found[0].removesuffix('.')} ({message})"
+
+
+def choose_explained_language(langs: Sequence[str]) -> str:
+    """Return the language that authors of a bank are told in: its first, English where it has it.
+
+    English, too, where there are no explanations in that language.
+    """
+    lang = next(iter(langs), FIRST)
+    return lang if FIRST not in langs and lang in list_explained_languages() else FIRST
