@@ -89,7 +89,7 @@ class LintOptions(BankOptions):
 )
 @click.option("--json", is_flag=True, help="Print problems as JSON, one a line, for editors.")
 @click.option("--lang", type=click.Choice(list_explained_languages()),
-              help="Say in this language what is wrong, and what helps. [default: the bank's]")  # fmt: skip
+              help="Language of what is said. [default: that of the bank]")  # fmt: skip
 @click.option("--debug", is_flag=True, help="Show where in Python an error came from.")
 @jobs_option
 @bank_options

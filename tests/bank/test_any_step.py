@@ -12,12 +12,14 @@ from flint import fmpq
 from symbolic_bank import SOLVERS, write_bank
 
 from quizgen.bank.bank import Bank
+from quizgen.bank.solvers import load_chain
 from quizgen.bank.variant import draw_variant
 from quizgen.core.errors import BankError
 from quizgen.kinds.grade import grade_answer
 from quizgen.lint.template_checks import lint_template
 from quizgen.maths.model import Model, Step
 from quizgen.maths.notation import format_tree
+from quizgen.maths.number_systems import evaluate
 from quizgen.maths.numbers import to_float
 from quizgen.question.part_context import ask_part
 
@@ -182,6 +184,30 @@ def test_quantiles_sums_and_integrals_are_those_of_scipy(bank):
     integral, _ = scipy.integrate.quad(lambda k: sympy.exp(-p * k * k), 0, 1)
     assert s == pytest.approx(integral, rel=1e-12)
     assert drawn.template.chain.certainties == {"t": "ball", "w": "ball", "s": "checked"}
+
+
+def test_sympy_computes_where_formulas_stay_as_they_are_written(tmp_path):
+    (tmp_path / "mixed.py").write_text("""
+from sympy import *
+from quizgen.maths.model import Model, Step
+a, x = symbols("a x")
+with evaluate(False):
+    MODEL = Model(given={a: ""}, free=("x",), steps=(
+        Step("d", diff(a*x**3 + cos(2*x), x)),
+        Step("i", integrate(a*x**2 + 1, x)),
+        Step("m", Matrix([[a, 2], [1, 3]]).det() + 1*a),
+        Step("s", solve(a*x - 6, x)[0]),
+        Step("e", expand((x + a)**2)),
+    ))
+""")
+    chain, _ = load_chain(tmp_path, "mixed")
+    steps = {step.name: step.expr for step in (*chain.forms, *chain.steps)}
+    assert format_tree(steps["m"]).endswith("1*a")
+    at = {
+        name: to_float(evaluate(tree, {"a": fmpq(5), "x": fmpq(2)})) for name, tree in steps.items()
+    }
+    wanted = {"d": 60 - 2 * math.sin(4), "i": 40 / 3 + 2, "m": 18, "s": 6 / 5, "e": 49}
+    assert at == pytest.approx(wanted)
 
 
 def test_a_mistake_without_a_certain_value_is_left_out(bank):
