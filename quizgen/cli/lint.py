@@ -24,6 +24,7 @@ from quizgen.cli.terminal import ProgressLine, print_table, shorten_message, was
 from quizgen.core.errors import QuizgenError
 from quizgen.core.executor import map_ordered, open_executor
 from quizgen.core.untrusted import escape_control_characters
+from quizgen.locale import FIRST
 from quizgen.locale.explanations import (
     choose_explained_language,
     explain_diagnostic,
@@ -124,7 +125,7 @@ def _lint_bank(bank: Bank, names: tuple[str, ...], options: LintOptions) -> int:
         return _print_teaching_findings(bank, names, options)
     rows, broken = _examine_templates(bank, names, options)
     broken = list({str(problem): problem for problem in broken}.values())
-    lang = options["lang"] or choose_explained_language(bank.languages)
+    lang = options["lang"] or _choose_language(bank)
     if options["json"]:
         for problem in broken:
             said = explain_diagnostic(problem, lang)
@@ -200,9 +201,17 @@ def _check_bank(bank: Bank, limit: float, *, whole: bool) -> list[Diagnostic]:
     return found
 
 
+def _choose_language(bank: Bank) -> str:
+    """Return the language that the authors of a bank are told in."""
+    try:
+        return choose_explained_language(bank.languages)
+    except QuizgenError:  # it is told of by itself
+        return FIRST
+
+
 def lint_while_writing(bank: Bank, name: str) -> list[str]:
     """Return the messages on a template, over few draws: quick enough while writing."""
-    lang = choose_explained_language(bank.languages)
+    lang = _choose_language(bank)
     found = _examine_template(bank, name, FEW, ENOUGH)[1]
     return [str(explain_diagnostic(problem, lang)) for problem in found]
 
@@ -214,7 +223,7 @@ def _print_teaching_findings(bank: Bank, names: tuple[str, ...], options: LintOp
         ProgressLine("lint", len(names)) as progress,
         open_executor(_count_processes(options, names)) as (executor, ahead),
     ):
-        lang = options["lang"] or choose_explained_language(bank.languages)
+        lang = options["lang"] or _choose_language(bank)
         limit = _compute_time_limit(options)
         findings = partial(_build_teaching_rows, bank, options["seeds"], limit, lang)
         for found in map_ordered(executor, findings, progress.over(names), ahead):
