@@ -1,11 +1,13 @@
 """What a diagnostic says in the language of an author: ``locale/<lang>/diagnostics.toml``.
 
 English is what the checks say themselves. In another language the sentence of the rule comes first
-and the English one, which has the names and numbers of the place, in brackets after it.
+and the English one, which has the names and numbers of the place, in brackets after it. What has no
+rule, such as an error about a class, is translated by its sentence: ``locale/<lang>/errors.toml``.
 """
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Sequence
 from functools import cache
@@ -58,3 +60,34 @@ def choose_explained_language(langs: Sequence[str]) -> str:
     """
     lang = next(iter(langs), FIRST)
     return lang if FIRST not in langs and lang in list_explained_languages() else FIRST
+
+
+@cache
+def load_sentences(lang: str) -> tuple[tuple[re.Pattern[str], str], ...]:
+    """Return what matches each English sentence of an error, and the sentence for it."""
+    file = SHIPPED / lang / "errors.toml"
+    said = tomllib.loads(file.read_text("utf-8"))["sentences"] if file.exists() else {}
+    found = []
+    for english in sorted(said, key=len, reverse=True):
+        pieces = _BLANK.split(english)
+        body = "".join(
+            f"(?P<at{piece}>.*?)" if place % 2 else re.escape(piece)
+            for place, piece in enumerate(pieces)
+        )
+        found.append((re.compile(f"(?P<place>(?:.*?: )?){body}"), said[english]))
+    return tuple(found)
+
+
+def translate_error(message: str, lang: str) -> str:
+    """Return an error in a language, after its place; as it is if it is none of the listed."""
+    for pattern, sentence in load_sentences(lang):
+        if match := pattern.fullmatch(message):
+            place = _LINE.sub(TRANSLATED_LINE.get(lang, r"\g<0>"), match["place"])
+            return place + _BLANK.sub(lambda blank: match[f"at{blank[1]}"], sentence)
+    return message
+
+
+_BLANK = re.compile(r"\{(\d)\}")
+_LINE = re.compile(r"\bline (\d+)")
+TRANSLATED_LINE = {"de": r"Zeile \1"}
+"""How the place of an error names a line."""
