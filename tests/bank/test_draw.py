@@ -15,7 +15,9 @@ from quizgen.bank.bank import Bank, builtin_root
 from quizgen.bank.sampler import list_candidates, pick_index, sampler_for, shuffle
 from quizgen.bank.variant import draw_variant, reference_variant
 from quizgen.core.errors import BankError, SamplingError
+from quizgen.kinds.grade import grade_answer
 from quizgen.maths.precision import working_precision
+from quizgen.question.part_context import ask_part
 
 
 def make_bank(tmp_path: Path, toml: str, name: str = "mine", **languages: str) -> Bank:
@@ -304,3 +306,26 @@ def test_a_draw_is_of_the_bank_that_was_asked(tmp_path):
         one.path,
         other.path,
     ]
+
+
+ASKED = """
+topic = "topic"
+tier = "A"
+levels = []
+[draw]
+a = { range = [3, 40, 1], unit = "cm" }
+b = { range = [2, 9, 1], unit = "m" }
+s = { is = "a/100 + b", unit = "m" }
+[[part]]
+answer = { kind = "quantity", of = "s", unit = "cm", exact = true }
+"""
+
+
+def test_what_is_drawn_by_a_formula_may_be_asked_without_a_solver(tmp_path):
+    template = make_bank(tmp_path, ASKED, en="# T\n{{ a }} and {{ b }} together?").template("mine")
+    for seed in range(6):
+        drawn = draw_variant(template, seed)
+        a, b = (int(drawn.shown[name]) for name in "ab")
+        spec = ask_part(drawn, 0).spec
+        assert grade_answer(spec, f"{a + 100 * b} cm").verdict == "correct"
+        assert grade_answer(spec, f"{a + b} cm").verdict == "wrong"

@@ -57,6 +57,21 @@ def test_rows_of_text_are_said_tabled_and_looked_up(tmp_path, seed):
     assert content.decode().splitlines()[1] == f"{metals[0]},{DENSITIES[metals[0]]:.2f}"
 
 
+def test_a_table_stands_inside_a_paragraph(tmp_path):
+    words = WORDS.replace(
+        "{{ table: metal density }}", "Weighed: {{ table: metal density }} by Ana."
+    )
+    one = draw(tmp_path, TABLE, 1, words=words, metals_csv=METALS)
+    question, _ = compose_variant(one, "en")
+    text = list(blocks_to_plain_text(question.stem))
+    before, table, after = (
+        text.index("Weighed: "),
+        text.index("metal | density"),
+        text.index(" by Ana."),
+    )
+    assert (table - before, after - table) == (1, 4)
+
+
 def test_a_list_of_text_stands_in_draw_and_is_permuted(tmp_path):
     rules = f'[draw]\n{NUMBERS}c = {{ permutation = ["red", "green", "blue"] }}\n'
     found = {draw(tmp_path / str(s), rules, s).text_list("c") for s in range(6)}
