@@ -120,6 +120,7 @@ def met(page: Page) -> set[Fraction]:
     return {*numbers(text), *map(Fraction, APERTURE.findall(text)), *spelled}
 
 
+@pytest.mark.slow
 def test_a_wrong_key_would_be_found(bank):
     believed = [
         (name, part)
