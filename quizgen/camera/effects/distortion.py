@@ -13,8 +13,13 @@ from msgspec.structs import replace
 from quizgen.camera.effect import Effect, EffectSize, LayerByLayer
 from quizgen.camera.pixels.filters import sample_bilinear, sample_nearest
 from quizgen.camera.pixels.tiles import split_range
-from quizgen.camera.raster.detail_regions import sampled_regions
-from quizgen.camera.raster.layers import Field, bound_shift, largest_margin, replace_regions
+from quizgen.camera.raster.layers import (
+    Field,
+    bound_shift,
+    largest_margin,
+    remake_layer,
+    sampling_reach,
+)
 from quizgen.camera.raster.rasterizer import Layer, PixelBox
 from quizgen.camera.setup.scene import Image, Precision, SceneError
 from quizgen.camera.setup.settings import NEEDS_LENS, Setting, aperture_diameter
@@ -189,8 +194,8 @@ def operation(layer: Layer, view: View) -> Layer:
         return [sample_bilinear(image, x, y) for image in images]
 
     far = largest_displacement(view)
-    where = sampled_regions(layer, (far, far))
-    layer = replace_regions(layer, where, warp, (_BAND, sys.maxsize))
+    reach = sampling_reach(layer, (far, far))
+    layer = remake_layer(layer, reach, warp, (_BAND, sys.maxsize))
     if not isinstance(layer.depth, np.ndarray):
         return layer
     depth = np.empty_like(layer.depth)

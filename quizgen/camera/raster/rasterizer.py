@@ -126,6 +126,25 @@ def bounding_box(cover: Image) -> PixelBox:
     return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
 
 
+def full_box(shape: tuple[int, ...]) -> PixelBox:
+    """Return the box of all rows and columns."""
+    return slice(0, shape[0]), slice(0, shape[1])
+
+
+def grow_box(box: PixelBox, far: tuple[int, int], shape: tuple[int, ...]) -> PixelBox:
+    """Return a box with more rows and columns on each side, within the picture.
+
+    An empty box stays empty.
+    """
+    if not box[0].stop:
+        return box
+    rows, columns = (
+        slice(max(part.start - more, 0), min(part.stop + more, length))
+        for part, more, length in zip(box, far, shape, strict=False)
+    )
+    return rows, columns
+
+
 def _centre_of(thing: SceneObject, view: View) -> tuple[float, float]:
     """Return the centre of a thing on the picture (x, y), px from the first pixel."""
     return view.centre[0] + thing.x.value, view.centre[1] + thing.y.value
