@@ -59,7 +59,6 @@ class Interval(msgspec.Struct, frozen=True):
 
 
 REAL = Interval()
-POSITIVE = Interval(low=0.0, reason="not-positive")
 NONNEGATIVE = Interval(low=0.0, reason="negative", closed=True)
 
 
@@ -67,14 +66,10 @@ class Constraint(msgspec.Struct, frozen=True):
     """A relation between arguments for which there is no answer, such as z = 0.
 
     ``broken(*args)`` flags the elements that have it, and ``reason`` names it.
-
-    ``possible`` takes the limits of the arguments: when it is false, no element breaks the rule
-    and none is looked at.
     """
 
     reason: str
     broken: Callable[..., Any]
-    possible: Callable[..., bool] = lambda *_limits: True
 
 
 def is_defined(result: FloatOrArray) -> Any:

@@ -8,6 +8,7 @@ defined.
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -72,6 +73,16 @@ def falloff(r: Column, f: Column) -> Column:
     q = r * r
     p = q / (q + f * f)
     return p * (2 - p)
+
+
+def _compute_decimal_pixel(*row: float) -> float:
+    """Return o + f x/(s z) rounded once, for the decimals that the numbers print as."""
+    f, s, x, z, o = (Fraction(repr(value)) for value in row)
+    return float(o + f * x / (s * z))
+
+
+pixel = np.vectorize(_compute_decimal_pixel, otypes=[np.float64])
+"""Pixel coordinates from f, s, x, z and o: 2 mm, 5 um, -1, 2 and 320 give 120."""
 
 
 def hue(R: Column, G: Column, B: Column) -> Column:

@@ -17,7 +17,6 @@ from quizgen.camera.raster.shapes import SHAPES, TEXTURES, Coordinates
 from quizgen.camera.setup.scene import Image, SceneError, SceneObject
 from quizgen.camera.setup.settings import aperture_diameter
 from quizgen.camera.setup.view import View
-from quizgen.numerics.ufunc import warm_allocator
 
 
 class Motion(msgspec.Struct, frozen=True):
@@ -307,10 +306,6 @@ def layer_specs(view: View) -> tuple[LayerSpec, ...]:
     return tuple(found)
 
 
-_SETTLED = 30 << 20
-"""Bytes, just below the most that the C library takes note of (32 MiB)."""
-
-
 def rasterize(view: View) -> LayerStack:
     """Return the drawn layers of a scene.
 
@@ -326,7 +321,6 @@ def rasterize(view: View) -> LayerStack:
     """
     if view.scene.is_metric:
         raise SceneError("lengths in metres must be projected first")
-    warm_allocator(_SETTLED)
     return tuple(_draw_layer(spec, view) for spec in layer_specs(view))
 
 
