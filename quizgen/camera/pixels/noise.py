@@ -46,9 +46,9 @@ class EffectRandom:
         raw: NDArray[np.uint64] = self._source.random_raw(count).astype("<u8", copy=False)
         return raw
 
-    def _draw_words(self, tile: int, count: int, stream: int = 0) -> NDArray[np.uint16]:
+    def _draw_words(self, tile: int, count: int) -> NDArray[np.uint16]:
         """Return whole numbers below 2^16, each as likely."""
-        return self._draw_raw(tile, -(-count // 4), stream).view("<u2")[:count]
+        return self._draw_raw(tile, -(-count // 4)).view("<u2")[:count]
 
     def draw_from_table(self, table: Image, tile: int, count: int) -> Image:
         """Return values of a table of 2^16, each as likely."""
