@@ -54,14 +54,6 @@ class EffectRandom:
         """Return values of a table of 2^16, each as likely."""
         return np.take(table, self._draw_words(tile, count), mode="clip")
 
-    def table_places(
-        self, first: int, tile: int, count: int
-    ) -> tuple[PixelPlaces, NDArray[np.uint16]]:
-        """Return where a table of 2^16 is read at ``first`` or beyond, and the indices."""
-        words = self._draw_words(tile, count)
-        where = np.flatnonzero(words >= first)
-        return where, words[where]
-
     def draw_normal(
         self, tile: int, count: int, kind: DTypeLike = np.float32, *, fine: bool = False
     ) -> Image:
