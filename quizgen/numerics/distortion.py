@@ -9,10 +9,18 @@ from __future__ import annotations
 import numpy as np
 from flint import fmpq
 
-from quizgen.numerics.domain import NONNEGATIVE, REAL, Constraint
+from quizgen.numerics.domain import (
+    NONNEGATIVE,
+    REAL,
+    Array,
+    Constraint,
+    Counts,
+    Flags,
+    FloatOrArray,
+    Numbers,
+)
 from quizgen.numerics.quintic import QuinticSolver, cubic_discriminant, solve_cubic
 from quizgen.numerics.rational import ONE, exact_arguments, from_dyadic, to_dyadic
-from quizgen.numerics.typing import Array, Counts, Flags, FloatOrArray, Numbers
 from quizgen.numerics.ufunc import StableUfunc, smallest_nonzero
 
 _UNSURE = 2.0**-40

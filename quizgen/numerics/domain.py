@@ -1,4 +1,4 @@
-"""What happens when there is no answer.
+"""What goes in and out of array functions, and what happens when there is no answer.
 
 Policy, the same for every function of this package:
 
@@ -20,8 +20,30 @@ from typing import Any
 
 import msgspec
 import numpy as np
+import numpy.typing as npt
 
-from quizgen.numerics.typing import Array, FloatOrArray
+Numbers = npt.ArrayLike
+"""What the public functions take: a number, a list, an array."""
+
+FloatOrArray = Any
+"""What they return: a float for scalar arguments, else an array (masked without an answer)."""
+
+Array = npt.NDArray[np.float64]
+Flags = npt.NDArray[np.bool_]
+Indices = npt.NDArray[np.intp]
+Counts = npt.NDArray[np.int64]
+
+ArrayLike = Array | tuple[Array, ...]
+"""A block of the result, or one block of every result."""
+
+Limits = tuple[float, float]
+"""Least and largest value of a block (NaN when there is one)."""
+
+ArrayFormula = Callable[..., ArrayLike]
+"""A formula on blocks; a block of one element stands for all elements."""
+
+Exact = Callable[..., Any]
+"""The same quantity for fractions; returns fractions, or floats that stand for themselves."""
 
 
 class DomainError(ValueError):

@@ -8,7 +8,7 @@ from typing import SupportsIndex
 
 from flint import fmpq, fmpz
 
-from quizgen.numerics.typing import Array
+from quizgen.numerics.domain import Array
 
 ONE = fmpz(1)
 _BITS = 53

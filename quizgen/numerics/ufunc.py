@@ -11,9 +11,19 @@ from collections.abc import Iterator, Sequence
 import msgspec
 import numpy as np
 
-from quizgen.numerics.domain import Constraint, DomainError, Interval
+from quizgen.numerics.domain import (
+    Array,
+    ArrayFormula,
+    Constraint,
+    DomainError,
+    Exact,
+    Flags,
+    FloatOrArray,
+    Interval,
+    Limits,
+    Numbers,
+)
 from quizgen.numerics.rational import exact_arguments, nearest_double
-from quizgen.numerics.typing import Array, ArrayFormula, Exact, Flags, FloatOrArray, Limits, Numbers
 
 BLOCK = 32768
 """Elements per block: temporaries stay near the processor, and calls are few."""

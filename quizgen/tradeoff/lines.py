@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from quizgen.numerics.domain import Array
 from quizgen.numerics.double_double import as_pairs
-from quizgen.numerics.typing import Array
 
 Column = npt.NDArray[np.floating[Any]]
 """One quantity of many inputs, in the precision of a way of computing."""
