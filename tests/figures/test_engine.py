@@ -320,6 +320,11 @@ def test_a_hostile_matplotlibrc_changes_nothing_and_pyplot_is_never_loaded(tmp_p
     assert len({line.split()[1] for line in usual}) == len(usual) >= 7
 
 
+def test_all_code_that_decides_what_is_drawn_is_known():
+    for name in engine._CODE:
+        assert engine._list_python_files(engine._PACKAGE / name), name
+
+
 # Anything that matplotlib draws
 
 
