@@ -20,6 +20,7 @@ from PIL import Image
 
 from quizgen.classes import generation
 from quizgen.classes.class_folder import ClassFolder
+from quizgen.classes.scanning import pictures
 from quizgen.classes.scanning.pages import PageReading, PartReading
 from quizgen.classes.scanning.scan_folder import ScanFolder
 
@@ -154,7 +155,10 @@ def test_a_filled_box_is_withdrawn_and_what_is_not_clear_is_asked(
     one, pairs = options_of(lines["7"], "choice"), options_of(lines["7"], "match")
     first = {one[0]: "crossed and filled", one[1]: "cross", pairs[0]: "dot", pairs[-1]: "cross"}
     second = options_of(lines["8"], "choice")
-    save_scan(crossed(blanks["7"], lines["7"], first, clear_pen(1)), tmp_path / "a", "200")
+    page = crossed(blanks["7"], lines["7"], first, clear_pen(1))
+    own = [box for box in lines["7"]["sheet"]["fields"] if box["part"] == one[0].split()[0]]
+    print([(b["x"],b["y"],b["w"],b["h"],b.get("option")) for b in own])
+    save_scan(page, tmp_path / "a", "200")
     save_scan(
         crossed(blanks["8"], lines["8"], dict.fromkeys(second[:2], "cross"), clear_pen(2)),
         tmp_path / "b",
@@ -349,15 +353,20 @@ def hostile_files(root) -> dict[str, str]:
         vast.pages[0].Resources = pikepdf.Dictionary(XObject=pikepdf.Dictionary(I=image))
         vast.pages[0].Contents = vast.make_stream(b"q 14000 0 0 14000 0 0 cm /I Do Q")
         vast.save(root / "vast.pdf")
+    frames = [Image.new("L", (300, 400), 255)]
+    frames[0].save(root / "long.tif", save_all=True, append_images=frames)
     return {
         "cut.jpg": "is damaged (Truncated", "large.png": "more than 120 million pixels", "wide.png": "more than 120 million pixels",
         "text.pdf": "is no sound PDF", "text.jpg": "is no sound picture", "notes.docx": "is no picture of a page",
         "empty.tif": "is no sound picture", "folder.pdf": "is no file", "pipe.png": "is no file", "locked.pdf": "is locked by a password",
-        "vast.pdf": "more than 120 million pixels", "gone.pdf": "No such file",
+        "vast.pdf": "more than 120 million pixels", "long.tif": "has 2 pages", "gone.pdf": "No such file",
     }  # fmt: skip
 
 
-def test_files_that_are_no_scans_are_named_and_stop_no_others(folder, blanks, tmp_path, capsys):
+def test_files_that_are_no_scans_are_named_and_stop_no_others(
+    folder, blanks, tmp_path, capsys, monkeypatch
+):
+    monkeypatch.setattr(pictures, "MOST_PAGES", 1)
     expected = hostile_files(tmp_path)
     save_scan(blanks["7"], tmp_path / "a", "200")
     assert run("class", "scan", folder, *(tmp_path / name for name in (*expected, "a.jpg"))) == 1
