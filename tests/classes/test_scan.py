@@ -155,10 +155,7 @@ def test_a_filled_box_is_withdrawn_and_what_is_not_clear_is_asked(
     one, pairs = options_of(lines["7"], "choice"), options_of(lines["7"], "match")
     first = {one[0]: "crossed and filled", one[1]: "cross", pairs[0]: "dot", pairs[-1]: "cross"}
     second = options_of(lines["8"], "choice")
-    page = crossed(blanks["7"], lines["7"], first, clear_pen(1))
-    own = [box for box in lines["7"]["sheet"]["fields"] if box["part"] == one[0].split()[0]]
-    print([(b["x"],b["y"],b["w"],b["h"],b.get("option")) for b in own])
-    save_scan(page, tmp_path / "a", "200")
+    save_scan(crossed(blanks["7"], lines["7"], first, clear_pen(1)), tmp_path / "a", "200")
     save_scan(
         crossed(blanks["8"], lines["8"], dict.fromkeys(second[:2], "cross"), clear_pen(2)),
         tmp_path / "b",
