@@ -14,6 +14,8 @@ APART = 2.0
 """Two values count as different when more than this many tolerances lie between them."""
 NEAR = 1e-9
 """Relative distance at which two values count as one."""
+TINY = 1e-12
+"""Values below it count as this large."""
 _STRUCTURES = frozenset({"matrix", "row", "vector", "set", "union", "interval", "complex", "eq"})
 _POINTS = (0.731, 1.377, 2.219, 3.071, 0.263, -0.617, -1.849)
 """Where formulas are compared; each name takes its own turn of them."""
@@ -123,18 +125,17 @@ def _are_related(pairs: Sequence[tuple[float, float]], relation: str) -> bool:
     """Return whether pairs of values differ by one constant, by one factor, or not at all."""
     if relation == "constant":
         shift = pairs[0][0] - pairs[0][1]
-        return all(_is_near(a - b, shift, max(abs(a), abs(b))) for a, b in pairs)
+        return all(abs(a - b - shift) <= NEAR * max(abs(a), abs(b), TINY) for a, b in pairs)
     if relation in {"factor", "positive"}:
         a0, b0 = pairs[0]
-        return (relation == "factor" or a0 * b0 > 0) and all(
-            _is_near(a * b0, a0 * b, max(abs(a * b0), abs(a0 * b))) for a, b in pairs
-        )
-    return all(_is_near(a, b, max(abs(a), abs(b))) for a, b in pairs)
+        same_sign = relation == "factor" or a0 * b0 > 0
+        return same_sign and all(_is_near(a * b0, a0 * b) for a, b in pairs)
+    return all(_is_near(a, b) for a, b in pairs)
 
 
-def _is_near(a: float, b: float, size: float) -> bool:
-    """Return whether two floats agree, relative to the size of what they were computed from."""
-    return abs(a - b) <= NEAR * max(size, 1e-12)
+def _is_near(a: float, b: float) -> bool:
+    """Return whether two floats agree."""
+    return math.isclose(a, b, rel_tol=NEAR, abs_tol=NEAR * TINY)
 
 
 def _evaluate_at(expr: Expr, env: dict[str, float]) -> float | None:

@@ -63,7 +63,7 @@ def choose_explained_language(langs: Sequence[str]) -> str:
 
 
 @cache
-def load_sentences(lang: str) -> tuple[tuple[re.Pattern[str], str], ...]:
+def load_error_patterns(lang: str) -> tuple[tuple[re.Pattern[str], str], ...]:
     """Return what matches each English sentence of an error, and the sentence for it."""
     file = SHIPPED / lang / "errors.toml"
     said = tomllib.loads(file.read_text("utf-8"))["sentences"] if file.exists() else {}
@@ -80,7 +80,7 @@ def load_sentences(lang: str) -> tuple[tuple[re.Pattern[str], str], ...]:
 
 def translate_error(message: str, lang: str) -> str:
     """Return an error in a language, after its place; as it is if it is none of the listed."""
-    for pattern, sentence in load_sentences(lang):
+    for pattern, sentence in load_error_patterns(lang):
         if match := pattern.fullmatch(message):
             place = _LINE.sub(TRANSLATED_LINE.get(lang, r"\g<0>"), match["place"])
             return place + _BLANK.sub(lambda blank: match[f"at{blank[1]}"], sentence)
