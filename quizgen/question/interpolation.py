@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections import deque
 from collections.abc import Iterable, Iterator
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import chain, groupby
 
 from flint import fmpq
@@ -161,6 +161,23 @@ class Interpolator:
         if place not in self.text.cases and not any(slot_names(written)):
             self.text.unslotted_sentences[place] = filled
         return filled
+
+    def step_idea(self, name: str) -> tuple[Inline, ...]:
+        """Return the sentence of a step with its name in place of its value, for a hint."""
+        written = self.raw_sentence("steps", name)
+        if name not in slot_names(written):
+            return self.sentence("steps", name)
+        return fill_inlines(written, partial(self._fill_without, name), self._fill_program)
+
+    def _fill_without(self, hidden: str, part: Unfilled) -> tuple[Inline, ...]:
+        """Return what a slot or a formula is replaced by where one value is not said."""
+        if isinstance(part, Slot) and part.name.partition(":")[0] == hidden:
+            return (name_inline(hidden),)
+        if isinstance(part, LaidOutFormula) and hidden in (names := _list_names_in_layout(part)):
+            own = LeafValue(typeset.lay_out_name(hidden))
+            filled = {n: own if n == hidden else self._fill_leaf(n) for n in names}
+            return (typeset_layout(fill_leaves(part.node, filled)),)
+        return self._fill_value(part)
 
     def raw_sentence(self, section: str, name: str) -> tuple[Inline, ...]:
         """Return a named sentence as it is written; of several cases the one that fits.

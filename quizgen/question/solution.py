@@ -66,7 +66,7 @@ class SolutionStep(msgspec.Struct, frozen=True):
     """One step: the worked formula, why it is taken, and its number on the formula sheet.
 
     ``name``, ``thing`` and ``sides`` are its quantity, in words, and what it is equal to;
-    ``points`` what an author says that it earns.
+    ``points`` what an author says that it earns. ``idea`` is why without the value that results.
     """
 
     maths: TypesetMaths
@@ -76,13 +76,14 @@ class SolutionStep(msgspec.Struct, frozen=True):
     thing: tuple[Inline, ...] = ()
     sides: tuple[WorkedSide, ...] = ()
     points: Fraction | None = None
+    idea: tuple[Inline, ...] = ()
 
     @property
     def hints(self) -> tuple[SolutionHint, ...]:
         """Return what a learner may be told of the step, little by little."""
         if not self.sides:
             return (SolutionHint("why", self.why),)
-        found = [SolutionHint("quantity", self.thing, self.why)]
+        found = [SolutionHint("quantity", self.thing, self.idea or self.why)]
         for role, sides in groupby(self.sides, key=lambda side: side.role):
             formula = self.formula if role == FORMULA else ""
             shown = msgspec.structs.replace(
@@ -334,6 +335,7 @@ def solution_step(filler: Interpolator, step: ChainStep) -> SolutionStep:
         step.name,
         quantity_inlines(filler.drawn, step.name, filler.lang),
         sides,
+        idea=filler.step_idea(step.name),
     )
 
 

@@ -11,7 +11,9 @@ from quizgen.bank.bank import Bank
 from quizgen.bank.variant import draw_variant
 from quizgen.kinds.grade import grade_answer
 from quizgen.maths.numbers import to_float
+from quizgen.question.compose import compose_variant
 from quizgen.question.part_context import ask_part
+from quizgen.question.solution import inlines_to_plain
 
 BANK = Bank(Path(__file__).parent.parent.parent / "examples" / "strangers", trusted=True)
 
@@ -96,3 +98,21 @@ def test_the_state_on_the_map_has_its_own_code(seed):
     assert grade(one, "ABCD"[int(one.shown["k"]) - 1]).verdict == "correct"
     other = rows[states[int(one.shown["k"]) % 4]]
     assert grade(one, other, 1).verdict == "wrong"
+
+
+@pytest.mark.parametrize(
+    ("name", "hint", "why"),
+    [
+        ("power-of-a-resistor", "Voltage times current: P.", "Voltage times current: {} mW."),
+        ("antiderivative", "The power rises by one and divides: F.", ""),
+    ],
+)
+def test_a_hint_names_what_the_solution_says(name, hint, why):
+    one = draw(name, 3)
+    solved = compose_variant(one, "en")[1].solution
+    step = solved.parts[0].lines[-1]
+    assert inlines_to_plain(step.hints[0].why) == hint
+    if why:
+        power = one.shown["U"] * one.shown["I"]
+        assert inlines_to_plain(step.why) == why.format(power)
+    assert inlines_to_plain(step.why) != hint

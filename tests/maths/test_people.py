@@ -82,6 +82,8 @@ def test_a_name(symbol, person):
         ("u = f*X = (50 mm)*(30 m) ≈ 1.5 m²", "u = f·X = (50 mm)·(30 m) ≈ 1.5 m²"),
         ("1/gamma + beta*gamma(x)", "1/γ + β·gamma(x)"),
         ("abs((-0.5))", "abs(−0.5)"),
+        ("L = (-inf; 0] or [1; inf)", "L = (−∞; 0] or [1; ∞)"),
+        ("v = (-1; 2)", "v = (−1; 2)"),
     ],
 )
 def test_a_formula(typed, person):

@@ -172,8 +172,8 @@ _FORMULA = re.compile(
 )
 _DOUBLED = re.compile(r"\(\(([^()]+)\)\)")
 """Brackets in brackets, where a number stands alone in those of a function."""
-_ALONE = re.compile(rf"(?<=[=<>≤≥≠≈] )\(({MINUS}[^()]+)\)(?=$| [=<>≤≥≠≈])")
-"""A number with a sign that is a whole side."""
+_ALONE = re.compile(rf"(?<=[=<>≤≥≠≈] )\(({MINUS}[^();[\]]+)\)(?=$| [=<>≤≥≠≈])")
+"""A number with a sign that is a whole side; no interval or vector that begins with one."""
 _SPELLED = {"<=": "≤", ">=": "≥", "!=": "≠", "*": "·", "-": MINUS}
 
 
