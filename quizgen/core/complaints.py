@@ -120,7 +120,8 @@ def _explain_type_error(text: str, kind: object) -> tuple[str, str, str]:
     if match := _MISSING.match(text):
         return "QG105", f"the key {match[1]!r} is missing", ""
     if match := _NONE_OF.match(text):
-        allowed = list(map(str, _list_allowed_values(kind)))
+        lists = ["[...]"] if get_origin(_choose_container(kind)) in {tuple, list} else []
+        allowed = [*map(str, _list_allowed_values(kind)), *lists]
         return "QG107", f"{match[1]!r} is not allowed{_suggest_name(match[1], allowed)}", ""
     return "QG106", text, ""
 

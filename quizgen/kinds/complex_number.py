@@ -2,30 +2,39 @@
 
 from __future__ import annotations
 
+import math
+import re
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 import msgspec
+from flint import fmpq
 
 from quizgen.grading.judging.sampled_equality import values_agree
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.formulas import read_formula
-from quizgen.grading.spec import WordSpec
+from quizgen.grading.rounding import USUAL_FIGURES, format_figures, format_rounded_key
 from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
 from quizgen.kinds.asking import hint, make_spec, misconception_specs
-from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredAnswer, PartContext
+from quizgen.kinds.contract import AnswerKind, AskedPart, PartContext
 from quizgen.kinds.forms import (
+    ROUNDED,
+    AuthoredEntries,
+    EntriesSpec,
     drop_name,
     entry_matches,
     format_plain,
     parse_entry,
+    round_entry,
     split_sides,
     typeset_key,
 )
 from quizgen.locale import translate
 from quizgen.maths.complex_values import ComplexValue, evaluate_complex
 from quizgen.maths.constants import parse_exact
-from quizgen.maths.notation import FormulaReadError, format_tree, pretty
+from quizgen.maths.notation import FormulaReadError, format_tree, parse_formula, pretty
+from quizgen.maths.numbers import to_float
 from quizgen.maths.tidy import tidy_formula
 from quizgen.maths.tree import Call, Expr, Sym, make_number, names_in, operators_in, walk_tree
 from quizgen.maths.values import Value
@@ -37,15 +46,18 @@ _HINT = hint("ask.complex")
 _UNITS = ("i", "j")
 
 
-class AuthoredComplex(AuthoredAnswer, kw_only=True, tag="complex", frozen=True):
+class AuthoredComplex(AuthoredEntries, kw_only=True, tag="complex", frozen=True):
     """A complex number of the solver."""
 
     of: str
     form: Literal["cartesian", "polar", "any"] = "any"
 
 
-class ComplexSpec(WordSpec, kw_only=True, frozen=True):
-    """Complex: ``parts`` = real and imaginary; ``form`` = cartesian, polar or any."""
+class ComplexSpec(EntriesSpec, kw_only=True, frozen=True):
+    """Complex: ``parts`` = real and imaginary, how near; ``form`` = cartesian, polar or any.
+
+    ``rel`` and ``abs`` are distances in the plane, decimals and figures those of both parts.
+    """
 
     written_as: ClassVar[AnswerForm] = "formula"
 
@@ -55,6 +67,7 @@ class ComplexSpec(WordSpec, kw_only=True, frozen=True):
 
     def validate(self) -> None:
         """Check both parts."""
+        super().validate()
         for parts in (self.parts, *self.traps.values()):
             if len(parts) != len(("real", "imaginary")):
                 raise ValueError("parts: the real and the imaginary part are needed")
@@ -70,7 +83,7 @@ class ComplexSpec(WordSpec, kw_only=True, frozen=True):
             If it cannot be read, or the sides of a chain differ.
         """
         *before, tree = (
-            read_formula(drop_name(side), _UNITS, options.decimal).tree
+            read_formula(_spell_out(drop_name(side)), _UNITS, options.decimal).tree
             for side in split_sides(typed)
         )
         value = evaluate_complex(tree, frozenset(_UNITS))
@@ -78,12 +91,25 @@ class ComplexSpec(WordSpec, kw_only=True, frozen=True):
             if any(map(_differ, evaluate_complex(side, frozenset(_UNITS)), value)):
                 raise FormulaReadError("sides-differ", 1, typed.strip()[:60])
         read_as = pretty.format_formula(format_tree(tree))
-        if _is_same(value, self.parts):
+        rounded = find_written_form(tree) == "polar"
+        if self._is_near(value, self.parts, rounded=rounded):
             return self._judge_form(tree, correct(read_as))
         for name, parts in self.traps.items():
-            if _is_same(value, parts):
+            if self._is_near(value, parts, rounded=rounded):
                 return wrong(read_as, f"trap:{name}")
         return wrong(read_as, self._find_slip(value))
+
+    def _is_near(self, value: ComplexValue, parts: list[str], *, rounded: bool) -> bool:
+        """Return whether a number is a key; size and angle written out may always be rounded."""
+        rule = self.tolerance
+        if rule is not None and self.rel is None and self.abs is None:
+            return all(entry_matches(v, text, rule) for v, text in zip(value, parts, strict=True))
+        if rule is None and (_is_same(value, parts) or not rounded):
+            return _is_same(value, parts)
+        key = [parse_exact(text) for text in parts]
+        size = parse_exact(self.rel) if self.rel is not None else ROUNDED
+        reach = parse_exact(self.abs) ** 2 if self.abs is not None else size**2 * _square(key)
+        return not _square([v - k for v, k in zip(value, key, strict=True)]) > reach
 
     def _find_slip(self, value: ComplexValue) -> str:
         """Return the note on a wrong number that misses the key by one slip; "" for none."""
@@ -102,7 +128,49 @@ class ComplexSpec(WordSpec, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as it is printed, and as it can be typed back."""
+        if self.form == "polar" and self.tolerance:
+            return "{}\N{ANGLE}{}°".format(*map(pretty.format_number, self.rounded_polar()))
+        if self.tolerance:
+            return pretty.format_constant(self.rounded_sum())
         return pretty.format_constant(format_tree(build_complex(self.parts, self.form)))
+
+    def rounded_sum(self) -> str:
+        """Return real and imaginary part as far as they are asked, as they are typed."""
+        real, imaginary = (round_entry(text, self.tolerance) for text in self.parts)
+        sign = "-" if imaginary.startswith("-") else "+"
+        return f"{real} {sign} {imaginary.removeprefix('-')}*i"
+
+    def rounded_polar(self) -> tuple[str, str]:
+        """Return size and angle in degrees as far as they are asked, at least to three figures."""
+        x, y = (to_float(parse_exact(text)) for text in self.parts)
+        turned = (math.hypot(x, y), math.degrees(math.atan2(y, x)))
+        places = self.decimals
+        figures = max(self.sigfigs or 0, USUAL_FIGURES) + 1
+        size, angle = (fmpq(*part.as_integer_ratio()) for part in turned)
+        shown = format_figures(size, figures) if places is None else f"{turned[0]:.{places}f}"
+        return shown, format_rounded_key(angle, max(places or 0, figures - 2))
+
+
+def _square(parts: Sequence[Value]) -> Value:
+    """Return the square of a number's size."""
+    real, imaginary = parts
+    return real * real + imaginary * imaginary
+
+
+_SIZE_AND_ANGLE = re.compile(
+    r"\(?\s*(?P<size>[^;∠()]+?)\s*(?:∠|;|/_)\s*(?P<angle>[^;∠()]*?)\s*"
+    r"(?P<unit>°|deg(?:rees?)?\b|\^?\\circ|rad\b|(?<=π)|(?<=pi))\s*\)?"
+)
+_UNIT_FIRST = re.compile(r"(?<![^\W\d_])([ij]) ?(?=\d)")
+
+
+def _spell_out(typed: str) -> str:
+    """Return ``50∠53°`` and ``(50; 53°)`` as a formula, and ``j40`` as a product."""
+    polar = _SIZE_AND_ANGLE.fullmatch(typed.strip())
+    if polar is None:
+        return _UNIT_FIRST.sub(r"\1*", typed)
+    unit = "" if polar["unit"] in {"rad", ""} else "°"
+    return f"({polar['size']})*exp(i*({polar['angle']}{unit}))"
 
 
 def _differ(first: Value, second: Value) -> bool:
@@ -185,17 +253,26 @@ def _list_parts(form: Expr) -> list[str]:
 def input_hints(spec: ComplexSpec, lang: str) -> tuple[TextOrInlines, ...]:
     """Return how a complex number is typed, and the form that is asked."""
     more = (translate(lang, f"ask.form_{spec.form}"),) if spec.form != "any" else ()
-    return (*_HINT(spec, lang), *more)
+    return (*_HINT(spec, lang), *more, *spec.hint_rounding(lang))
 
 
 def explain_key(spec: ComplexSpec, _lang: str) -> TextOrInlines:
     """The number as it is written by hand."""
+    if spec.form == "polar" and spec.tolerance:
+        from quizgen.question.inlines import TypesetMaths
+        from quizgen.typeset.from_latex import lay_out_latex
+
+        size, angle = spec.rounded_polar()
+        return (TypesetMaths(lay_out_latex(rf"{size}\angle {angle}^\circ"), spec.show()),)
+    if spec.tolerance:
+        return typeset_key(parse_formula(spec.rounded_sum(), symbols=("i",)), spec.show())
     return typeset_key(build_complex(spec.parts, spec.form))
 
 
 def paper_hints(spec: ComplexSpec, lang: str) -> tuple[str, ...]:
     """Return the form that is asked, if one is."""
-    return (translate(lang, f"on_paper.form_{spec.form}"),) if spec.form != "any" else ()
+    form = (translate(lang, f"on_paper.form_{spec.form}"),) if spec.form != "any" else ()
+    return (*form, *spec.hint_rounding_on_paper(lang))
 
 
 KIND = AnswerKind(AuthoredComplex, ComplexSpec, ask, input_hints, explain_key, paper_hints)
