@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING, ClassVar, Literal
 
@@ -78,6 +79,8 @@ class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
     """Expression: ``value``; ``symbols`` = {name: "real", "positive" or [low, high]}.
 
     ``form`` = factored, expanded or lowest; ``up_to`` = constant (``+ C`` may be typed) or factor.
+    ``calls`` are values of an unknown function, such as ``f(n - 1)``, by the names that they have
+    in formulas.
     """
 
     written_as: ClassVar[AnswerForm] = "formula"
@@ -87,6 +90,7 @@ class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
     traps: dict[str, str] = msgspec.field(default_factory=dict)
     form: Literal["", "any", "factored", "expanded", "lowest"] = ""
     up_to: Literal["", "constant", "factor"] = ""
+    calls: dict[str, str] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
         """Check the key, its names and the domains.
@@ -120,6 +124,8 @@ class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
         free = self.up_to == "constant" and CONSTANT not in self.symbols
         names = (*self.symbols, CONSTANT) if free else self.symbols
         emphatic = "factorial" not in self.value
+        for name, call in self.calls.items():
+            typed = _match_call(call).sub(name, typed)
         verdicts = [
             self._judge_formula(
                 read_formula(side, names, options.decimal, emphatic=emphatic), options, free=free
@@ -128,7 +134,14 @@ class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
         ]
         if len({bool(verdict.credit) for verdict in verdicts}) > 1:
             raise FormulaReadError("sides-differ", 1, typed.strip()[:60])
-        return verdicts[-1]
+        last = verdicts[-1]
+        return msgspec.structs.replace(last, read_as=self._name_calls(last.read_as))
+
+    def _name_calls(self, text: str) -> str:
+        """Return a formula for people with the calls of functions as they are written."""
+        for name, call in self.calls.items():
+            text = text.replace(pretty.format_name(name), pretty.format_formula(call))
+        return text
 
     def _judge_formula(
         self, formula: TypedFormula, options: GradingOptions, *, free: bool
@@ -145,7 +158,21 @@ class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as it can be typed."""
-        return pretty.format_formula(format_tree(parse_authored(self.value, tuple(self.symbols))))
+        key = format_tree(parse_authored(self.value, tuple(self.symbols)))
+        return self._name_calls(pretty.format_formula(key))
+
+
+_CALL = re.compile(r"(?P<name>[^\W\d_]\w*)\((?P<of>.+)\)")
+
+
+def _match_call(call: str) -> re.Pattern[str]:
+    """Return what finds ``f(n-1)`` as people type it, ``f_{n - 1}`` and ``f[n−1]`` too."""
+    found = _CALL.fullmatch(call)
+    if found is None:
+        return re.compile(re.escape(call))
+    signs = "".join(found["of"].split())
+    inside = r"\s*".join("[-−–]" if sign in "-−" else re.escape(sign) for sign in signs)
+    return re.compile(rf"(?<![^\W\d_]){found['name']}\s*_?\s*[({{\[]\s*{inside}\s*[)}}\]]")
 
 
 def _check_domain(name: str, domain: Domain) -> None:
@@ -256,23 +283,33 @@ def ask(part: PartContext) -> AskedPart[ExpressionSpec]:
     traps = part.answer.get("traps", {})
     given: dict[str, object] = {}
     if value := part.answer.get("value"):
-        traps = {name: _put_numbers_in(part, text) for name, text in traps.items()}
-        given = {"value": _put_numbers_in(part, value), "traps": traps}
+        calls = {
+            f"{found['name']}_at{place}": call
+            for place, call in enumerate(part.answer["symbols"], 1)
+            if (found := _CALL.fullmatch(call))
+        }
+        traps = {name: _put_numbers_in(part, calls, text) for name, text in traps.items()}
+        value = _put_numbers_in(part, calls, value)
+        names = {call: name for name, call in calls.items()}
+        symbols = {names.get(n, n): d for n, d in part.answer["symbols"].items()}
+        given = {"value": value, "traps": traps, "symbols": symbols, "calls": calls}
     if part.answer.get("of"):
         forms = {"": part.answer_form(), **part.misconception_forms()}
         value, *_ = written = [format_tree(form) for form in forms.values()]
         traps = dict(zip([*forms][1:], written[1:], strict=True))
-        names = sorted(set().union(*map(names_in, forms.values())))
-        symbols = dict.fromkeys(names, "real") | dict(part.answer.get("symbols", {}))
+        free = sorted(set().union(*map(names_in, forms.values())))
+        symbols = dict.fromkeys(free, "real") | dict(part.answer.get("symbols", {}))
         given = {"value": value, "traps": traps, "symbols": symbols}
     notes = part.misconception_notes(traps) if traps else {}
     spec = make_spec(ExpressionSpec, part, notes=notes, **given)
     return AskedPart(spec, mistakes=misconception_specs(spec, "value"))
 
 
-def _put_numbers_in(part: PartContext, text: str) -> str:
+def _put_numbers_in(part: PartContext, calls: Mapping[str, str], text: str) -> str:
     """Return a formula with numbers for drawn names that are none of its symbols."""
-    symbols = part.answer["symbols"]
+    for name, call in calls.items():
+        text = _match_call(call).sub(name, text)
+    symbols = [*part.answer["symbols"].keys() - set(calls.values()), *calls]
     known = {
         name: Num(Fraction(format_for_key(value)))
         for name, value in part.shown.items()
@@ -286,7 +323,15 @@ def _put_numbers_in(part: PartContext, text: str) -> str:
 
 def explain_key(spec: ExpressionSpec, _lang: str) -> TextOrInlines:
     """Return the formula as it is written by hand."""
-    return typeset_key(parse_authored(spec.value, tuple(spec.symbols)))
+    key = parse_authored(spec.value, tuple(spec.symbols))
+    if not spec.calls:
+        return typeset_key(key)
+    from quizgen.question.inlines import TypesetMaths
+    from quizgen.typeset import lay_out
+    from quizgen.typeset.from_latex import lay_out_latex
+
+    leaves = {name: lay_out_latex(call) for name, call in spec.calls.items()}
+    return (TypesetMaths(lay_out(key, leaves=leaves, inline=True), spec.show()),)
 
 
 HOW_TO_TYPE = hint("ask.expression", example=EXAMPLE)

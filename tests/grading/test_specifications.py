@@ -46,7 +46,7 @@ FULL = [
     {"kind": "expression", "value": "f*X/Z", "symbols": {"f": "positive", "X": "real", "Z": [1, 2]},
      "traps": {"half": "f*X"}},
     {"kind": "expression", "value": "x^3", "symbols": {"x": "real"}, "form": "expanded",
-     "up_to": "constant"},
+     "up_to": "constant", "calls": {"x": "f(n)"}},
     {"kind": "set", "values": ["1"], "letters": ["a", "b"], "exact": True},
     {"kind": "equation", "value": "x = 2*y", "symbols": ["x", "y"], "traps": {"half": "x = y"}},
     {"kind": "complex", "parts": ["1", "-2"], "form": "polar", "rel": "0.01", "traps": {"half": ["1", "2"]}},
