@@ -18,8 +18,6 @@ from functools import cache, cached_property
 from pathlib import Path
 from types import MappingProxyType, ModuleType
 
-import msgspec
-
 from quizgen.bank.candidate import Candidate
 from quizgen.bank.drawn_lists import list_table_files
 from quizgen.bank.language_file import read_language_file
@@ -628,8 +626,9 @@ class Bank:
         prose = self._list_prose_files(name)
         files = [folder / "template.toml", *prose, *self._beside_template(name)]
         files += pictures_beside(folder)
-        chain, source = self.chain(rules.solver) if rules.solver else (Chain({}, ()), b"")
-        chain = _add_asked_draws(chain, rules)
+        chain, source = (
+            self.chain(rules.solver) if rules.solver else (_make_chain_without_steps(rules), b"")
+        )
         texts = {path.stem: read_language_file(path) for path in prose}
         register_languages(sorted(texts))
         order = [lang for lang in list_languages() if lang in texts]
@@ -657,13 +656,11 @@ class Bank:
         return len(self.template_paths)
 
 
-def _add_asked_draws(chain: Chain, rules: Rules) -> Chain:
-    """Return a chain that also knows what is asked and drawn, not solved: it has no steps."""
-    asked = [name for part in rules.part for name in asked_quantities(part.answer)]
+def _make_chain_without_steps(rules: Rules) -> Chain:
+    """Return a chain that knows what is asked and drawn where nothing is solved."""
     units = {n: r.unit for n, r in rules.draw.items()} | {n: r.unit for n, r in rules.data.items()}
-    drawn = {name: units[name] for name in asked if name in units}
-    more = {n: unit for n, unit in drawn.items() if n not in {*chain.given, *chain.by_name}}
-    return msgspec.structs.replace(chain, given={**chain.given, **more}) if more else chain
+    asked = [name for part in rules.part for name in asked_quantities(part.answer)]
+    return Chain({name: units[name] for name in asked if name in units}, ())
 
 
 def _has_checked_part(rules: Rules) -> bool:
