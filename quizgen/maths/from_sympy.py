@@ -239,7 +239,9 @@ def _make_binder_converter(op: str) -> Callable[[sympy.Basic], Expr]:
             body = body.args[1] if len(body.args) == 2 else Call("mul", body.args[1:])
         for limit in expression.limits:
             if len(limit) != 3 or any(bound.is_infinite for bound in limit[1:]):
-                raise BankError(f"{expression} has no closed form, or lacks finite bounds")
+                what = f"{expression} has no closed form, or lacks finite bounds"
+                hint = "where it needs a sign, say so: symbols('a', positive=True)"
+                raise BankError(f"{what} ({hint})")
             name, low, high = limit
             body = Call(op, (Sym(name.name), from_sympy(low), from_sympy(high), body))
         return body
@@ -267,6 +269,9 @@ REWRITES: dict[type, type] = {
     sympy.erfcinv: sympy.erfinv,
     sympy.RisingFactorial: sympy.gamma,
     sympy.FallingFactorial: sympy.gamma,
+    sympy.sinc: sympy.sin,
+    sympy.frac: sympy.floor,
+    sympy.catalan: sympy.binomial,
 }
 """Functions that are said by another one."""
 

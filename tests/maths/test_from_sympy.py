@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import subprocess
 import sys
 from fractions import Fraction
@@ -119,6 +120,23 @@ def test_value_is_what_sympy_computes(written):
     tree = from_sympy(written)
     assert names_in(tree) == {symbol.name for symbol in written.free_symbols}
     assert evaluate(tree, VALUES, float64_system()) == pytest.approx(expected, rel=1e-12)
+
+
+@together(
+    ("written", "expected"),
+    [
+        (sp.coth(x), math.cosh(2.5) / math.sinh(2.5)),
+        (sp.acot(x), math.atan(0.4)),
+        (sp.sinc(x), math.sin(2.5) / 2.5),
+        (sp.frac(x), 0.5),
+        (sp.catalan(sp.Symbol("x") * 2), 42),
+        (sp.Heaviside(x - 1), 1),
+    ],
+)
+def test_other_functions_are_said_by_those_there_are(written, expected):
+    with sp.evaluate(True):
+        tree = from_sympy(written)
+    assert evaluate(tree, {"x": 2.5}, float64_system()) == pytest.approx(expected)
 
 
 def test_decimals_are_the_typed_ones():
