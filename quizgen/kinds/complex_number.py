@@ -260,10 +260,12 @@ def explain_key(spec: ComplexSpec, _lang: str) -> TextOrInlines:
     """The number as it is written by hand."""
     if spec.form == "polar" and spec.tolerance:
         from quizgen.question.inlines import TypesetMaths
-        from quizgen.typeset.from_latex import lay_out_latex
+        from quizgen.typeset import quantity
+        from quizgen.typeset.nodes import Ident, MathRow
 
         size, angle = spec.rounded_polar()
-        return (TypesetMaths(lay_out_latex(rf"{size}\angle {angle}^\circ"), spec.show()),)
+        row = MathRow((quantity(size, ""), Ident("\N{ANGLE}"), quantity(angle, "deg")))
+        return (TypesetMaths(row, spec.show()),)
     if spec.tolerance:
         return typeset_key(parse_formula(spec.rounded_sum(), symbols=("i",)), spec.show())
     return typeset_key(build_complex(spec.parts, spec.form))
