@@ -240,8 +240,8 @@ def rule_on_paper(spec: Tolerance, lang: str) -> str:
         return translate(lang, "on_paper.exact")
     if rule == "rel" and parse_exact(str(number)) < USUAL_SHARE:
         percent = pretty.format_number(f"{to_float(parse_exact(str(number)) * 100):g}")
-        return f"± {percent} %"
-    return f"± {pretty.format_number(str(number))}" if rule == "abs" else ""
+        return f"±\u00a0{percent} %"
+    return f"±\u00a0{pretty.format_number(str(number))}" if rule == "abs" else ""
 
 
 def accept_within_tolerance(spec: NumericSpec, lang: str) -> str:
@@ -262,7 +262,7 @@ def accept_within_tolerance(spec: NumericSpec, lang: str) -> str:
         percent = pretty.format_number(f"{to_float(parse_exact(str(number)) * 100):g}")
         return localise_numbers(lang, translate(lang, "scheme.within", percent=percent))
     if rule == "abs":
-        return localise_numbers(lang, f"± {pretty.format_number(str(number))}")
+        return localise_numbers(lang, f"±\u00a0{pretty.format_number(str(number))}")
     return translate(lang, "scheme.last_place")
 
 
