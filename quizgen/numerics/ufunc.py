@@ -193,19 +193,15 @@ def _replace_flagged(
 def broadcast_flat(*args: Numbers) -> tuple[tuple[int, ...], list[Array]]:
     """Return the common shape of the arguments, and each as a flat array of doubles.
 
-    One that is the same number throughout, like the one camera of a picture, becomes an array of
-    one.
+    A single number, like the one camera of a picture, stays an array of one.
     """
     arrays = list(map(_to_doubles, args))
     shape = np.broadcast_shapes(*[array.shape for array in arrays])
-    single = [_is_constant(array) for array in arrays]
-    if all(single) and math.prod(shape) > 1:
-        return shape, [np.full(math.prod(shape), array.flat[0]) for array in arrays]
     return shape, [
-        array.reshape(-1)[:1]
-        if one
+        array.reshape(-1)
+        if array.size == 1
         else np.ascontiguousarray(np.broadcast_to(array, shape)).reshape(-1)
-        for array, one in zip(arrays, single, strict=True)
+        for array in arrays
     ]
 
 
@@ -232,14 +228,6 @@ def _round_integer(value: int) -> float:
         return float(value)
     except OverflowError:
         return math.inf
-
-
-def _is_constant(array: Array) -> bool:
-    """Return whether an array holds one number throughout; an empty one does not."""
-    if array.size < 2:
-        return array.size == 1
-    first = array.flat[0]
-    return bool(array.flat[-1] == first) and bool((array == first).all())
 
 
 def _iter_blocks(args: list[Array], size: int) -> Iterator[tuple[int, list[Array]]]:
