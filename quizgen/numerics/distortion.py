@@ -157,7 +157,7 @@ def _compute_fold_radius(k1: Array, k2: Array) -> Array:
 
 
 _DISTORT = StableUfunc(
-    _distort_in_doubles, (REAL,) * 4, exact=_distort_exact, reach=_FAR, tiny=True, outputs=2
+    _distort_in_doubles, (REAL,) * 4, exact=_distort_exact, reach=_FAR, outputs=2
 )
 _FOLD = StableUfunc(_compute_fold_radius, (REAL, REAL))
 _INVERSE = StableUfunc(
