@@ -40,7 +40,7 @@ ArrayFormula = Callable[..., ArrayLike]
 """A formula on blocks; a block of one element stands for all elements."""
 
 Exact = Callable[..., Any]
-"""The same quantity for fractions; returns fractions, or floats that stand for themselves."""
+"""The same quantity for fractions, as fractions."""
 
 
 class DomainError(ValueError):
