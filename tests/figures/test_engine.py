@@ -309,6 +309,7 @@ def digests(folder, **environment):
     return done.stdout.splitlines()
 
 
+@pytest.mark.slow
 def test_a_hostile_matplotlibrc_changes_nothing_and_pyplot_is_never_loaded(tmp_path):
     rc = tmp_path / "matplotlibrc"
     rc.write_text(HOSTILE)
