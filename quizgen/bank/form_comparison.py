@@ -7,8 +7,11 @@ from collections.abc import Sequence
 from typing import TypeGuard
 
 from quizgen.maths.number_systems import compile_expr, float64_system
+from quizgen.maths.tolerance import Tolerance
 from quizgen.maths.tree import Call, Expr, names_in
 
+APART = 2.0
+"""Two values count as different when more than this many tolerances lie between them."""
 NEAR = 1e-9
 """Relative distance at which two values count as one."""
 TINY = 1e-12
@@ -18,7 +21,9 @@ _POINTS = (0.731, 1.377, 2.219, 3.071, 0.263, -0.617, -1.849)
 """Where formulas are compared; each name takes its own turn of them."""
 
 
-def forms_agree(first: Expr, second: Expr, relation: str = "") -> bool:
+def forms_agree(
+    first: Expr, second: Expr, relation: str = "", rule: Tolerance | None = None
+) -> bool:
     """Whether two forms with numbers in place are the same one.
 
     Parameters
@@ -26,6 +31,8 @@ def forms_agree(first: Expr, second: Expr, relation: str = "") -> bool:
     first, second : Expr
     relation : str
         ``constant`` or ``factor`` where they may differ by one, ``scale`` of vectors.
+    rule : Tolerance, optional
+        How near numbers count as the same, if not all figures are asked.
     """
     if first == second:
         return True
@@ -41,9 +48,11 @@ def forms_agree(first: Expr, second: Expr, relation: str = "") -> bool:
             isinstance(second, Call)
             and second.op == first.op
             and len(first.args) == len(second.args)
-            and all(forms_agree(a, b) for a, b in zip(first.args, second.args, strict=True))
+            and all(
+                forms_agree(a, b, rule=rule) for a, b in zip(first.args, second.args, strict=True)
+            )
         )
-    return _formulas_agree(first, second, relation)
+    return _formulas_agree(first, second, relation, rule)
 
 
 def _is_call(expr: Expr, op: str) -> bool:
@@ -86,13 +95,23 @@ def _evaluate_components(vector: Expr) -> list[float]:
     return [math.nan if value is None else value for value in found]
 
 
-def _formulas_agree(first: Expr, second: Expr, relation: str) -> bool:
+def _numbers_agree(first: Expr, second: Expr, rule: Tolerance) -> bool:
+    """Return whether two numbers are nearer to each other than answers to both may be."""
+    a, b = (_evaluate_at(number, {}) for number in (first, second))
+    return a is not None and b is not None and abs(a - b) <= APART * rule.outer_width(a)
+
+
+def _formulas_agree(
+    first: Expr, second: Expr, relation: str, rule: Tolerance | None = None
+) -> bool:
     """Return whether two formulas are related at every point where both have a value.
 
     ``relation`` is ``"constant"`` or ``"factor"`` if they may differ by one, anything else if they
-    must be equal. False if there is no such point.
+    must be equal: numbers by the rule, if there is one. False if there is no such point.
     """
     names = sorted(names_in(first) | names_in(second))
+    if rule is not None and not names:
+        return _numbers_agree(first, second, rule)
     pairs = []
     for turn in range(len(_POINTS) if names else 1):
         env = {n: _POINTS[(turn + 2 * i) % len(_POINTS)] for i, n in enumerate(names)}

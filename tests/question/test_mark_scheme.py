@@ -129,7 +129,7 @@ def test_a_paper_says_how_exactly_where_three_figures_are_not_what_is_asked():
              {"abs": "0.5"}, {}]  # fmt: skip
     specs = [NumberSpec(kind="number", value="7/3", **rule) for rule in rules]
     assert [KINDS["number"].paper_hints(one, "en") for one in specs] == [
-        ("2 significant figures",), (), ("1 decimal",), ("exact",), ("± 0.1 %",), ("± 0.5",), (),
+        ("2 significant figures",), (), ("1 decimal",), ("exact",), ("±\u00a00.1 %",), ("±\u00a00.5",), (),
     ]  # fmt: skip
 
 
