@@ -22,7 +22,7 @@ from quizgen.classes.grading import (
     judge_submission,
 )
 from quizgen.classes.grading_history import GradingHistory, GradingOutcome, TotalChange
-from quizgen.classes.judged_answers import JudgedAnswers, compute_judging_digest
+from quizgen.classes.judged_answers import PASSING, JudgedAnswers, compute_judging_digest
 from quizgen.classes.key_index import KeyIndex, read_key_at, read_line_at
 from quizgen.classes.lock import lock_folder
 from quizgen.classes.manual_grading import (
@@ -55,8 +55,6 @@ from quizgen.locale import FIRST
 
 CHUNK = 50
 """Students of a job."""
-PASSING = frozenset({"unchecked", "program-time"})
-"""What is said of a program where the machine had no time for it: to be tried again."""
 
 
 class SubmissionToGrade(NamedTuple):
@@ -176,7 +174,8 @@ def _grade_locked_folder(
     outcome = history.write(_iter_marks(chunks, counts, known), keep=keep)
     if filled and keep:  # now: a run that ends before this one does reads the same queue again
         note_rulings(folder.path, filled)
-    groups = group_cases(decision_cases(undecided_answers(history.current()), keys.key, FIRST))
+    asked = undecided_answers(history.current())
+    groups = group_cases(decision_cases(asked, keys.key, FIRST, known))
     if keep:
         known.write()
         write_queue(folder.path, groups, kept)
