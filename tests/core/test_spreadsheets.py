@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime as dt
 import io
 import zipfile
 
@@ -44,6 +45,23 @@ def test_cells_of_the_first_sheet_are_read_as_they_are_shown(tmp_path, options):
         (4, ["007", "=1+1", "true", "রহিমা <b> & Co"]),
         (5, ["12345678901234", "", "", "1e-05"]),
     ]  # fmt: skip
+
+
+def test_what_a_spreadsheet_made_of_a_number_is_no_number(tmp_path):
+    out = io.BytesIO()
+    with xlsxwriter.Workbook(out) as book:
+        sheet = book.add_worksheet()
+        shown = ["d.m.yyyy", "h:mm", "0.00", '0.0 "days"', "[$-407]mmm yy", "[Red]0", "@"]
+        for column, form in enumerate(shown):
+            sheet.write_number(0, column, 46143, book.add_format({"num_format": form}))
+        sheet.write_datetime(1, 0, dt.date(2026, 5, 1), book.add_format({"num_format": 14}))
+        sheet.write_formula(1, 1, "=1+1", None, 2)
+        sheet.write_formula(1, 2, "=1+2", None, 3)
+    with zipfile.ZipFile(out) as book:
+        sheet = book.read("xl/worksheets/sheet1.xml").replace(b"<v>3</v>", b"")
+    first, second = read(tmp_path, replaced(out.getvalue(), "xl/worksheets/sheet1.xml", sheet))
+    assert first[1] == ["#DATE!", "#DATE!", "46143", "46143", "#DATE!", "46143", "46143"]
+    assert second[1] == ["#DATE!", "2", "#FORMULA!"]
 
 
 @pytest.mark.parametrize(
