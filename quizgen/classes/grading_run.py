@@ -19,7 +19,9 @@ from quizgen.classes.grading import (
     StudentMarks,
     Submission,
     apply_rulings,
+    item_name,
     judge_submission,
+    replace_tolerance,
 )
 from quizgen.classes.grading_history import GradingHistory, GradingOutcome, TotalChange
 from quizgen.classes.judged_answers import PASSING, JudgedAnswers, compute_judging_digest
@@ -250,6 +252,22 @@ def check_rulings(rulings: Iterable[Ruling], keys: KeyIndex) -> None:
         if one.student and one.student not in keys.places:
             raise ClassError(f"{file}: {one.what} {one.item}: student: nobody of this class has "
                              f"the number {one.student!r}")  # fmt: skip
+
+
+def check_tolerance(ruling: Ruling, keys: KeyIndex) -> None:
+    """Raise ``ClassError`` if a ruling about a tolerance is about an item that has none.
+
+    Raises
+    ------
+    ClassError
+        Before marking would end with it.
+    """
+    for student in keys.places:
+        for question in keys.key(student).questions:
+            for part in question.parts:
+                if item_name(question, part) == ruling.item:
+                    replace_tolerance(part, ruling.item, [ruling])
+                    return
 
 
 def _iter_jobs(

@@ -33,6 +33,7 @@ OLD_ENCODING = "cp1252"
 MOST_COLUMNS = 16_384
 """Of a worksheet."""
 _ARCHIVE = b"PK\x03\x04"
+_OLD_WORKBOOK = b"\xd0\xcf\x11\xe0"
 _CELL = re.compile(r"([A-Z]{1,3})(\d+)")
 _POINTED = re.compile(r"-?\d*\.?\d+(?:[eE][+-]?\d+)?")
 """A number that may be stored with more digits than it was typed with."""
@@ -62,6 +63,8 @@ def iter_spreadsheet_rows(path: Path, error: ErrorType) -> Iterator[tuple[int, l
         Of class ``error``, naming the file and if possible the line.
     """
     data = read_bytes(path, error, LARGEST_PICTURE)
+    if data.startswith(_OLD_WORKBOOK):
+        raise error(f"{path}: is an old workbook (.xls), or has a password; save it as XLSX or CSV")
     if data.startswith(_ARCHIVE):
         yield from _iter_workbook_rows(data, path, error)
     else:

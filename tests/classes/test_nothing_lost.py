@@ -207,6 +207,7 @@ def test_points_for_working_come_from_a_table(folder, capsys):
         (("drop", "9z"), "no part '9z'"),
         (("use", "nothing.csv", "--student", "101"), "no file 'nothing.csv'"),
         (("use", "../roster.csv", "--student", "101"), "no file '../roster.csv'"),
+        (("tolerance", "3b", "--value", "rel=0.1"), "no tolerance holds there"),
     ],
 )
 def test_a_ruling_that_cannot_be_is_refused_when_it_is_given(folder, capsys, words, said):

@@ -72,6 +72,11 @@ def test_text_is_read_in_the_encodings_of_windows(tmp_path, encoding, name):
     assert rows == [(1, ["id", "name"]), (2, ["7", name])]
 
 
+def test_an_old_workbook_is_told_from_a_text(tmp_path):
+    with pytest.raises(ClassError, match=r"old workbook \(\.xls\), or has a password"):
+        read(tmp_path, b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1 id;name", "roster.xls")
+
+
 def replaced(data, name, content):
     """The archive with another content of one file; without it if that is None."""
     out = io.BytesIO()
