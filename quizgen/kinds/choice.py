@@ -147,8 +147,8 @@ _SET_APART = (
 _BRACKETED = re.compile(r"(?P<mark>[A-Za-zক-ঞ]) ?\((?P<words>[^()]{2,})\)")
 _ALL = frozenset({"all", "all of them", "all of these", "alle", "সব", "সবগুলো", "সবগুলি"})
 _ALL_BUT = re.compile(
-    r"(?:all|every(?:thing|one)?|alle|alles)(?: of them)?(?: (?:is|are))?(?: true| right| correct)?,? "
-    r"(?:but|except|without|außer|ohne)(?: for)? (?P<out>.+)"
+    r"(?:all|every(?:thing|one)?|alle|alles)(?: of them)?(?: (?:is|are))?(?: true| right| correct)?"
+    r",? (?:but|except|without|außer|ohne)(?: for)? (?P<out>.+)"
     r"|(?P<before>.+?) (?:বাদে|ছাড়া|ছাড়া) (?:সব|বাকি সব)(?:গুলো|গুলি)?",
     re.IGNORECASE,
 )
@@ -160,7 +160,8 @@ _LETTER_LAST = re.compile(r"(?P<words>[^\W\d_]{3,}|[^:]*[^\W\d_]{3}[^:]*:) (?P<m
 _LONG_WORD = 8
 """Letters of a word that can stand for an option by itself."""
 _FILLERS = re.compile(
-    r"(?<![\w\u0980-\u09ff])(?:and|und|sowie|as well as|plus|or|oder|option|answer|ans|এবং|ও|উত্তর)(?![\w\u0980-\u09ff])",
+    r"(?<![\w\u0980-\u09ff])(?:and|und|sowie|as well as|plus|or|oder|option|answer|ans"
+    r"|এবং|ও|উত্তর)(?![\w\u0980-\u09ff])",
     re.IGNORECASE,
 )
 
@@ -277,15 +278,8 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
     whole = _find_option_by_text(spec, typed)
     if whole:
         return [whole]
-    if spec.kind == "multi" and typed.casefold().strip(_AROUND) in _ALL:
-        return list(range(1, len(spec.choices()) + 1))
-    pieces = _WORDED.split(typed) if spec.kind == "multi" else []
-    told = [_find_option_by_text(spec, piece) for piece in pieces]
-    if len(told) > 1 and all(told):
-        return list(dict.fromkeys(told))
-    if but := _ALL_BUT.fullmatch(typed.strip(_AROUND)) if spec.kind == "multi" else None:
-        left_out = _read_positions(spec, but["out"] or but["before"])
-        return [one for one in range(1, len(spec.choices()) + 1) if one not in left_out]
+    if several := _read_listed(spec, typed) if spec.kind == "multi" else []:
+        return several
     if {*map(str.casefold, spec.choices())} == {"yes", "no"} and (truth := read_truth(typed)):
         return [spec.choices().index(("yes", "no")[truth - 1]) + 1]
     read = (
@@ -302,6 +296,25 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
             raise
         return meant
     return (spec.kind == "choice" and len(read) > 1 and _find_worded_options(spec, typed)) or read
+
+
+def _read_listed(spec: ChoiceSpec, typed: str) -> list[int]:
+    """Return the options of an answer that lists them in full, or says all, or all but some.
+
+    Raises
+    ------
+    FormulaReadError
+        If those left out are no options.
+    """
+    every = list(range(1, len(spec.choices()) + 1))
+    if typed.casefold().strip(_AROUND) in _ALL:
+        return every
+    told = [_find_option_by_text(spec, piece) for piece in _WORDED.split(typed)]
+    if len(told) > 1 and all(told):
+        return list(dict.fromkeys(told))
+    but = _ALL_BUT.fullmatch(typed.strip(_AROUND))
+    left_out = _read_positions(spec, but["out"] or but["before"]) if but else every
+    return [one for one in every if one not in left_out]
 
 
 def _find_option_by_truth(spec: ChoiceSpec, typed: str) -> list[int]:

@@ -53,7 +53,8 @@ _GROUPS = (
 )
 """What may stand between pairs, or between all that belong to one right side."""
 _REST = re.compile(
-    r"^(?:and |und )?(?:the |der |die )?(?:rest|others?|remaining|übrigen?|anderen?|বাকি(?:গুলো|টা|রা)?|অন্যগুলো)"
+    r"^(?:and |und )?(?:the |der |die )?(?:rest|others?|remaining|übrigen?|anderen?"
+    r"|বাকি(?:গুলো|টা|রা)?|অন্যগুলো)"
     r"(?: (?:is|are|ist|sind))?(?= |:|=)[ :=]*|[ :=]*(?:rest|others|বাকিগুলো)$",
     re.IGNORECASE,
 )

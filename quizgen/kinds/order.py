@@ -41,7 +41,8 @@ _LEFT_OUT = re.compile(
     rf"|(?:(?:and |but |und )?(?:not|no|nicht)|except|außer) (?P<denied>{_LETTERED})"
     rf"|(?P<wrong>{_LETTERED}) (?:(?:is |are |ist |sind |was )?"
     r"(?:wrong|false|out|falsch|left out|not|nicht|missing|impossible|unused|extra|superfluous"
-    r"|nonsense|unnecessary|not needed|unmöglich|überflüssig|übrig|Unsinn|বাদ|ভুল|অসম্ভব|লাগে না|হয় না|নয়)"
+    r"|nonsense|unnecessary|not needed|unmöglich|überflüssig|übrig|Unsinn"
+    r"|বাদ|ভুল|অসম্ভব|লাগে না|হয় না|নয়)"
     r"|(?:does|do)(?: not|n't) (?:belong|fit|happen|exist)|makes no sense|never happens"
     r"|gehör(?:t|en) nicht dazu|passt nicht|entfällt|fällt weg)"
     r"(?:[,:]? (?:because|since|weil|কারণ) [^()]+)?)[).]*",

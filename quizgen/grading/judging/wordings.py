@@ -24,8 +24,8 @@ _ROOT = re.compile(r"(?:sqrt|√) ?\(? ?(\d+) ?\)?")
 _SHARES = (
     (re.compile(r"\b(?:a |one )?half\b"), "1/2"),
     (re.compile(r"\b(?:a|one) third\b"), "1/3"),
-    (re.compile(r"\btwo thirds\b"), "2/3"),
-    (re.compile(r"\bthree quarters\b"), "3/4"),
+    (re.compile(r"\b(?:two thirds|zwei ?drittel)\b"), "2/3"),
+    (re.compile(r"\b(?:three quarters|drei ?viertel)\b"), "3/4"),
     (re.compile(r"\b(?:a |one )?quarter\b"), "1/4"),
     (re.compile("∞"), "infinity"),
     (re.compile(r"\b50 ?%"), "1/2"),
@@ -114,24 +114,9 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
     """
     spoken = _split_words(typed)
     listed = [frozenset(_split_words(wording)) for wording in wordings]
-    said = frozenset(spoken)
-    same = [
-        place
-        for place, wording in enumerate(wordings, 1)
-        if said and said in _list_names_of(wording)
-    ]
-    if len(same) == 1:
-        return same[0]
-    names = _list_names_of(typed) - {said}
-    named = [
-        place for place, wording in enumerate(wordings, 1)
-        if names and names <= _list_names_of(wording)
-    ]  # fmt: skip
-    if len(named) == 1:
-        return named[0]
-    same = _find_same_pieces(typed, wordings)
-    if len(same) == 1:
-        return same[0]
+    called = _find_by_name(typed, wordings)
+    if called:
+        return called
     known = frozenset().union(*listed)
     meant = frozenset(_find_known_word(word, known) for word in _join_compounds(spoken, known))
     hits = [place for place, words in enumerate(listed, 1) if _own_words(words, listed) & meant]
@@ -141,7 +126,8 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
         return 0
     wanted = listed[hits[0] - 1]
     more = meant - wanted
-    if more & known or more & _AGAINST or len(more) > _MOST_WORDS_MORE:
+    counted = any(list_number_words().get(word, 0) > 1 or word.isdecimal() for word in more)
+    if counted or more & known or more & _AGAINST or len(more) > _MOST_WORDS_MORE:
         return 0
     if not all_named and not _says_enough(_split_words(wordings[hits[0] - 1]), meant, listed):
         return 0
@@ -182,7 +168,7 @@ def load_translations() -> dict[str, tuple[str, ...]]:
 
 
 def find_translation(word: str) -> tuple[str, ...]:
-    """Return what a word says in English, maybe with the ending of an adjective; none if unknown."""
+    """Return what a word says in English, maybe with an adjective's ending; none if unknown."""
     folded, known = fold_word(word), load_translations()
     stem = _ADJECTIVE.sub("", folded)
     return known.get(folded) or known.get(stem) or known.get(f"{stem}e", ())
@@ -236,6 +222,20 @@ def _find_nearest(meant: frozenset[str], listed: list[frozenset[str]]) -> list[i
     ]
 
 
+def _find_by_name(typed: str, wordings: Sequence[str]) -> int:
+    """Return the place of the only wording that is called so, by all of it or by its parts."""
+    said = frozenset(_split_words(typed))
+    names = _list_names_of(typed) - {said}
+    for found in (
+        [place for place, one in enumerate(wordings, 1) if said and said in _list_names_of(one)],
+        [place for place, one in enumerate(wordings, 1) if names and names <= _list_names_of(one)],
+        _find_same_pieces(typed, wordings),
+    ):
+        if len(found) == 1:
+            return found[0]
+    return 0
+
+
 def _find_same_pieces(typed: str, wordings: Sequence[str]) -> list[int]:
     """Return the places of wordings of the same pieces, in any order: ``night 1, day 2``."""
     said = _list_pieces(typed)
@@ -266,8 +266,8 @@ def _says_enough(
 ) -> bool:
     """Return whether an answer has enough of a wording: ``barrel``, not ``pixels`` for hot ones.
 
-    It has all numbers and letters that tell it from others, and at least half of the words that no other one has; a
-    word of its own only with two thirds of these, more of them only with all.
+    It has all numbers and letters that tell it from others, and at least half of the words that no
+    other one has; a word of its own only with two thirds of these, more of them only with all.
     """
     exact = {
         word

@@ -105,6 +105,8 @@ class _AroundWords(NamedTuple):
     altering: frozenset[str]
     """Words that deny a number, offer another one or change it."""
     denying: re.Pattern[str]
+    correcting: re.Pattern[str]
+    """A value that its writer has put in place of another, ``0.566 no, 0.569``."""
 
 
 @cache
@@ -135,6 +137,11 @@ def _load_around_words() -> _AroundWords:
         frozenset(found["leading-on"]),
         frozenset(found["altering"]),
         re.compile(rf"(?<![\w\u0980-\u09ff])(?:{listed['denying']}){_END}", re.IGNORECASE),
+        re.compile(
+            rf".*\d.*?[,;.:]? (?:(?:{listed['correcting']})[,:;.]? )+"
+            r"(?P<rest>[-+−]?[.,]?\d[^,;]*|[(\[][^()\[\]]*\d[^()\[\]]*[)\]])",
+            re.IGNORECASE | re.DOTALL,
+        ),
     )
 
 
@@ -197,28 +204,38 @@ def list_plainer_texts(
     if plain != typed:
         yield plain
     if form == "formula":
-        bare = _WORDS_BEHIND.sub(
-            "", _ROOT_BEHIND.sub(r"sqrt(\1)", _ROOT_OF.sub(r"sqrt(\1)", plain))
-        )
-        yield bare
-        if "=" in bare:
-            yield bare.rpartition("=")[2]
-    if form in {"number", "quantity", "values"}:
+        yield from _list_barer_formulas(plain)
+    elif form in {"number", "quantity", "values"}:
         spelt = _write_words_as_numbers(typed if _SPOKEN_SHARE.match(typed) else plain)
         if form == "values":
             spelt = _write_items_as_numbers(spelt)
         if spelt != plain:
             yield spelt
         if form == "values":
-            yield from separate_labelled_values(spelt, names)
-            yield from rejoin_values(spelt, len(names), ranges=ranges)
-            yield from bind_values(spelt, names, scan_numbers)
-            last = _LAST_LIST.fullmatch(spelt) or _CORRECTED.fullmatch(spelt)
-            if last:
-                yield last[1]
+            yield from _list_plainer_values(spelt, names, ranges=ranges)
         else:
             yield from _single_answer(spelt, form)
             yield from _find_conclusion(spelt)
+
+
+def _list_plainer_values(text: str, names: AskedNames, *, ranges: bool) -> Iterator[str]:
+    """Yield several values with their labels, joints or the words around them read."""
+    yield from separate_labelled_values(text, names)
+    yield from rejoin_values(text, len(names), ranges=ranges)
+    yield from bind_values(text, names, scan_numbers)
+    last = _LAST_LIST.fullmatch(text)
+    corrected = _load_around_words().correcting.fullmatch(text)
+    if last or corrected:
+        yield last[1] if last else corrected["rest"]
+
+
+def _list_barer_formulas(text: str) -> Iterator[str]:
+    """Yield a formula with roots as signs, without words behind it; the last side of several."""
+    text = _ROOT_BEHIND.sub(r"sqrt(\1)", _ROOT_OF.sub(r"sqrt(\1)", text))
+    text = _WORDS_BEHIND.sub("", text)
+    yield text
+    if "=" in text:
+        yield text.rpartition("=")[2]
 
 
 _ROOT_OF = re.compile(
@@ -262,7 +279,7 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
 
 def _find_conclusion(text: str) -> Iterator[str]:
     """Yield the number that is concluded at the end: ``2^3 = 8, so 3 bits``."""
-    for shape in (_CONCLUDED, _DERIVED, _CORRECTED):
+    for shape in (_CONCLUDED, _DERIVED, _load_around_words().correcting):
         concluded = shape.fullmatch(text)
         if concluded and not says_otherwise(concluded["rest"]):
             yield add_mixed_units(concluded["rest"].rpartition("=")[2].strip() or text)
@@ -275,12 +292,6 @@ _CONCLUDED = re.compile(
 )
 _DERIVED = re.compile(r"(?=.*[=√+*/]).*\d.*(?:->|→|=>|⇒) *(?P<rest>[^<>→⇒]*\d[^<>→⇒]*)", re.DOTALL)
 """A value behind the arrow at the end of a derivation."""
-_CORRECTED = re.compile(
-    r".*\d.*?[,;.:]? (?:no|nein|sorry|oops|wait|i mean|correction|korrektur|না)[,:;.]? "
-    r"(?:(?:no|wait|sorry|rather|it is|it's|i mean|nein|doch)[,:;.]? )*(?P<rest>[-+−]?[.,]?\d[^,;]*|[(\[][^()\[\]]*\d[^()\[\]]*[)\]])",
-    re.IGNORECASE | re.DOTALL,
-)
-"""A value that its writer has put in place of another."""
 
 
 def find_conclusion(typed: str) -> str:
