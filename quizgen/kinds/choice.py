@@ -9,12 +9,14 @@ from typing import Any, ClassVar
 
 import msgspec
 
+from quizgen.core.errors import FormulaError
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import fold_word
 from quizgen.grading.judging.wordings import find_wording_in, holds_wording, share_words
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, is_denied, says_otherwise
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, PICTURES, normalise_typed
+from quizgen.grading.reading.units import read_unit
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
 from quizgen.kinds.asking import LETTERS, assign_letters, hint, make_spec
@@ -49,6 +51,7 @@ _TRUE = frozenset(
         "satya",
     }
     | {"ja klar", "klar", "sure", "of course", "natürlich", "অবশ্যই", "আছে", "হ্যাঁ আছে"}
+    | {"hyã", "ha", "hã", "hae", "ঠিক কথা", "সত্য কথা", "সত্যি কথা", "satyi"}
     | {"thik", "sothik", "sotti", "haan", "hya"}
     | {"সত্য", "হ্যাঁ", "হ্যা", "সত্যি", "ঠিক", "সঠিক", "স", "1", "✓", "✔"}
 )
@@ -70,7 +73,7 @@ _FALSE = frozenset(
         "inkorrekt",
         "❌",
     }
-    | {"bhul", "mithya", "na", "নেই"}
+    | {"bhul", "mithya", "mittha", "vul", "na", "নেই", "ভুল কথা", "মিথ্যা কথা", "ঠিক নয়"}
     | {"মিথ্যা", "মিথ্যে", "অসত্য", "ভূল", "বেঠিক", "না", "ভুল", "ম", "0", "2", "✗", "✘"}
 )
 _TAKING_BACK = frozenset({"না", "na", "নয়"})
@@ -152,6 +155,11 @@ _ALL_BUT = re.compile(
     r"|(?P<before>.+?) (?:বাদে|ছাড়া|ছাড়া) (?:সব|বাকি সব)(?:গুলো|গুলি)?",
     re.IGNORECASE,
 )
+_ARE_TRUE = re.compile(
+    r" (?:are|is|sind|ist) (?:true|right|correct|richtig|wahr)$| (?:stimmen|সঠিক|সত্য)$",
+    re.IGNORECASE,
+)
+"""What is said behind options that are chosen."""
 _WORDED = re.compile(r"[,;\n]| (?:and|und|&|ও|এবং) ")
 """What stands between several options that are named by their words."""
 _PLACES = ["first", "second", "third", "fourth", "fifth", "sixth"]
@@ -160,7 +168,8 @@ _LETTER_LAST = re.compile(r"(?P<words>[^\W\d_]{3,}|[^:]*[^\W\d_]{3}[^:]*:) (?P<m
 _LONG_WORD = 8
 """Letters of a word that can stand for an option by itself."""
 _FILLERS = re.compile(
-    r"(?<![\w\u0980-\u09ff])(?:and|und|sowie|as well as|plus|or|oder|option|answer|ans"
+    r"(?<![\w\u0980-\u09ff])(?:and|und|ar|sowie|as well as|plus|both|beide|duitai"
+    r"|or|oder|option|answer|ans"
     r"|এবং|ও|উত্তর)(?![\w\u0980-\u09ff])",
     re.IGNORECASE,
 )
@@ -274,7 +283,7 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
     FormulaReadError
         If there is none.
     """
-    typed = typed.rstrip(" ;,✓✔")
+    typed = _ARE_TRUE.sub("", typed.rstrip(" ;,✓✔."))
     whole = _find_option_by_text(spec, typed)
     if whole:
         return [whole]
@@ -313,7 +322,10 @@ def _read_listed(spec: ChoiceSpec, typed: str) -> list[int]:
     if len(told) > 1 and all(told):
         return list(dict.fromkeys(told))
     but = _ALL_BUT.fullmatch(typed.strip(_AROUND))
-    left_out = _read_positions(spec, but["out"] or but["before"]) if but else every
+    left_out = every
+    if but:
+        out = but["out"] or but["before"]
+        left_out = _find_worded_options(spec, out) or _read_positions(spec, out)
     return [one for one in every if one not in left_out]
 
 
@@ -637,7 +649,7 @@ def _find_rounded_values(typed: str, options: list[str]) -> set[int]:
 
     A whole number with nothing behind it is rather the place of an option.
     """
-    said = _VALUE.fullmatch(typed.replace("−", "-").strip())
+    said = _VALUE.fullmatch(typed.rpartition("=")[2].replace("−", "-").strip())
     if said is None or not (said["unit"] or "." in said["number"].replace(",", ".")):
         return set()
     number = said["number"].replace(",", ".")
@@ -645,7 +657,7 @@ def _find_rounded_values(typed: str, options: list[str]) -> set[int]:
     found = set()
     for place, option in enumerate(options, 1):
         listed = _VALUE.fullmatch(option.replace("−", "-").replace("\xa0", " "))
-        if listed is None or said["unit"] not in {"", listed["unit"]}:
+        if listed is None or not _is_same_unit(said["unit"], listed["unit"]):
             continue
         if (
             abs(Fraction(listed["number"].replace(",", ".")) - Fraction(number)) * 10**places
@@ -653,6 +665,17 @@ def _find_rounded_values(typed: str, options: list[str]) -> set[int]:
         ):
             found.add(place)
     return found
+
+
+def _is_same_unit(typed: str, listed: str) -> bool:
+    """Return whether a unit, if one was typed, is that of an option: ``seconds`` for s."""
+    if typed in {"", listed} or not listed:
+        return typed in {"", listed}
+    try:
+        one, other = read_unit(typed), read_unit(listed)
+    except FormulaError:
+        return False
+    return (one.factor, one.dimension) == (other.factor, other.dimension)
 
 
 _VALUE = re.compile(r"(?P<number>-?\d+(?:[.,]\d+)?) ?(?P<unit>[^\d\s.,;:()\[\]-]*)")

@@ -12,7 +12,12 @@ from collections.abc import Sequence
 from functools import cache, lru_cache
 from itertools import pairwise
 
-from quizgen.grading.judging.spelling import allowed_typos, fold_word, typo_distance
+from quizgen.grading.judging.spelling import (
+    allowed_typos,
+    find_translation,
+    fold_word,
+    typo_distance,
+)
 from quizgen.grading.reading.answer_reader import says_otherwise
 from quizgen.grading.reading.number_words import list_number_words
 from quizgen.locale import list_languages, load_words
@@ -23,11 +28,14 @@ _TOKEN = re.compile(
 _ROOT = re.compile(r"(?:sqrt|√) ?\(? ?(\d+) ?\)?")
 _SHARES = (
     (re.compile(r"\b(?:a |one )?half\b"), "1/2"),
+    (re.compile(r"\b(?:an |one )eighth\b"), "1/8"),
+    (re.compile(r"\b(?:a |one )sixteenth\b"), "1/16"),
     (re.compile(r"\b(?:a|one) third\b"), "1/3"),
     (re.compile(r"\b(?:two thirds|zwei ?drittel)\b"), "2/3"),
     (re.compile(r"\b(?:three quarters|drei ?viertel)\b"), "3/4"),
     (re.compile(r"\b(?:a |one )?quarter\b"), "1/4"),
-    (re.compile("∞"), "infinity"),
+    (re.compile("∞|(?<!\\S)(?:unendlich|অসীম)(?!\\S)"), "infinity"),
+    (re.compile(r"(?<![\d\w])\.(?=\d)"), "0."),
     (re.compile(r"\b50 ?%"), "1/2"),
     (re.compile(r"\b25 ?%"), "1/4"),
     (re.compile(r"\b75 ?%"), "3/4"),
@@ -157,26 +165,6 @@ def share_words(typed: str, wordings: Sequence[str]) -> bool:
     return bool({*_split_words(typed)} & {word for one in wordings for word in _split_words(one)})
 
 
-@cache
-def load_translations() -> dict[str, tuple[str, ...]]:
-    """Return common words of other languages, folded, with what they say in English."""
-    return {
-        fold_word(word): tuple(said)
-        for lang in list_languages()
-        for word, said in load_words(lang, "answers").get("said", {}).items()
-    }
-
-
-def find_translation(word: str) -> tuple[str, ...]:
-    """Return what a word says in English, maybe with an adjective's ending; none if unknown."""
-    folded, known = fold_word(word), load_translations()
-    stem = _ADJECTIVE.sub("", folded)
-    return known.get(folded) or known.get(stem) or known.get(f"{stem}e", ())
-
-
-_ADJECTIVE = re.compile(r"(?<=.{4})e[rsnm]?$")
-
-
 def list_translated(typed: str) -> list[str]:
     """Return a text with its known words of other languages in English; none if it has none."""
     pieces = re.split(r"([\s,;:()-]+)", typed)
@@ -226,14 +214,34 @@ def _find_by_name(typed: str, wordings: Sequence[str]) -> int:
     """Return the place of the only wording that is called so, by all of it or by its parts."""
     said = frozenset(_split_words(typed))
     names = _list_names_of(typed) - {said}
+    known = frozenset().union(*map(_split_words, wordings))
     for found in (
         [place for place, one in enumerate(wordings, 1) if said and said in _list_names_of(one)],
         [place for place, one in enumerate(wordings, 1) if names and names <= _list_names_of(one)],
         _find_same_pieces(typed, wordings),
+        [
+            place
+            for place, one in enumerate(wordings, 1)
+            if any(
+                said & known == name and _is_little_more(said - name)
+                for name in _list_names_of(one)
+            )
+        ],
     ):
         if len(found) == 1:
             return found[0]
     return 0
+
+
+def _is_little_more(words: frozenset[str]) -> bool:
+    """Return whether words beside a name neither deny it nor count anything."""
+    few = len(words) <= len(("one", "two", "three"))
+    return few and not (
+        words & _AGAINST
+        or _denies(words)
+        or says_otherwise(" ".join(words))
+        or any(word.isdecimal() or word in list_number_words() for word in words)
+    )
 
 
 def _find_same_pieces(typed: str, wordings: Sequence[str]) -> list[int]:
@@ -279,7 +287,7 @@ def _says_enough(
     said = own & meant
     if exact - meant or 2 * len(said) < len(own):
         return False
-    if said == own:
+    if said == own or any(len(word) >= LONG and word.isalpha() for word in said):
         return True
     more = len(meant - {*wording})
     if more == 1 and len(said) > 1 and 3 * len(said) >= 2 * len(own):
@@ -329,6 +337,8 @@ def _stem(word: str) -> str:
     return short if len(short) >= LEAST_STEM else word
 
 
+LONG = 9
+"""Letters of a word that tells a wording by itself."""
 _VERB_ENDING = re.compile(r"(?:ing|ed|ion|e)$")
 LEAST_STEM = 4
 """Letters that are left of a word whose ending does not matter."""

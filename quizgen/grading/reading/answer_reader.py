@@ -220,6 +220,9 @@ def list_plainer_texts(
 
 def _list_plainer_values(text: str, names: AskedNames, *, ranges: bool) -> Iterator[str]:
     """Yield several values with their labels, joints or the words around them read."""
+    bare = _NOUN_BEHIND.sub(lambda m: m[0] if says_otherwise(m[2]) else m[1], text)
+    if bare != text:
+        yield bare
     yield from separate_labelled_values(text, names)
     yield from rejoin_values(text, len(names), ranges=ranges)
     yield from bind_values(text, names, scan_numbers)
@@ -229,9 +232,23 @@ def _list_plainer_values(text: str, names: AskedNames, *, ranges: bool) -> Itera
         yield last[1] if last else corrected["rest"]
 
 
+_NOUN_BEHIND = re.compile(r"([=:] ?[-+−]?\d[\d.,/]*) ([^\W\d_]{4,})(?= *(?:[,;\n]|$))")
+"""What a labelled value counts, ``r = 30 Elektronen``."""
+
+
+def name_by_index(typed: str, names: AskedNames) -> str:
+    """Return ``Y_601 = 0.4, Y_709 = 0.3`` for ``601: 0.4, 709: 0.3``, if these are its indices."""
+    found = [(mark, find_name(mark[2], names)) for mark in _INDEXED.finditer(typed)]
+    if len(found) != len(names) or {name for _, name in found} != {*names}:
+        return typed
+    return _INDEXED.sub(lambda m: f"{m[1]}{find_name(m[2], names)} = ", typed)
+
+
+_INDEXED = re.compile(r"(^|[,;/\n] *)(\d{1,4}) ?[:=] ?(?=[-+−.]?\d)")
+
+
 def _list_barer_formulas(text: str) -> Iterator[str]:
-    """Yield a formula with roots as signs, without words behind it; the last side of several."""
-    text = _ROOT_BEHIND.sub(r"sqrt(\1)", _ROOT_OF.sub(r"sqrt(\1)", text))
+    """Yield a formula without words behind it, and the last side of several."""
     text = _WORDS_BEHIND.sub("", text)
     yield text
     if "=" in text:
@@ -247,8 +264,12 @@ _WORDS_BEHIND = re.compile(r" \((?:[^\W\d_]{3,}[ -]?)+\)$")
 _FRACTION_FACTOR = re.compile(r"(?<![\w.,^/*)])(\d+ ?/ ?\d+) (?=[(√]|[^\W\d_])")
 
 
-def join_fraction(typed: str) -> str:
-    """Return ``1/4 (x - 4)`` as a product: the blank parts the fraction from what it multiplies."""
+def write_in_signs(typed: str) -> str:
+    """Return a formula with ``root of N`` as a function, ``1/4 (x - 4)`` as a product.
+
+    The blank parts the fraction from what it multiplies.
+    """
+    typed = _ROOT_BEHIND.sub(r"sqrt(\1)", _ROOT_OF.sub(r"sqrt(\1)", typed))
     return _FRACTION_FACTOR.sub(r"(\1)*", typed)
 
 
@@ -279,7 +300,7 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
 
 def _find_conclusion(text: str) -> Iterator[str]:
     """Yield the number that is concluded at the end: ``2^3 = 8, so 3 bits``."""
-    for shape in (_CONCLUDED, _DERIVED, _load_around_words().correcting):
+    for shape in (_CONCLUDED, _DERIVED, _STEPS, _load_around_words().correcting):
         concluded = shape.fullmatch(text)
         if concluded and not says_otherwise(concluded["rest"]):
             yield add_mixed_units(concluded["rest"].rpartition("=")[2].strip() or text)
@@ -290,6 +311,8 @@ _CONCLUDED = re.compile(
     r",? (?P<rest>(?:[^,;]|(?<=\d),(?=\d))*\d(?:[^,;]|(?<=\d),(?=\d))*)",
     re.IGNORECASE | re.DOTALL,
 )
+_STEPS = re.compile(r"(?=[^,;]*\d[^,;]*=).*\d.*[,;] (?P<rest>[^,;]*\d[^,;]*)", re.DOTALL)
+"""A value that ends steps with commas between them, ``56*100 = 5600, 5600^2 = 31 MP``."""
 _DERIVED = re.compile(r"(?=.*[=√+*/]).*\d.*(?:->|→|=>|⇒) *(?P<rest>[^<>→⇒]*\d[^<>→⇒]*)", re.DOTALL)
 """A value behind the arrow at the end of a derivation."""
 
@@ -314,7 +337,7 @@ _SAME_VALUE = re.compile(
 
 
 def _is_shrunk(number: str, remark: str) -> bool:
-    """Return whether a remark makes a number smaller: ``5 (smaller)``, but not ``1/5 (smaller)``."""
+    """Return whether a remark makes a number smaller: ``5 (smaller)``, not ``1/5 (smaller)``."""
     if not is_shrinking(remark):
         return False
     share = read_factor(remark).replace("(", "").replace(")", "")
@@ -453,18 +476,26 @@ def _write_item_as_number(piece: str) -> str:
     """Return one of several values with its number in digits, ``minus four`` as ``-4``."""
     if any(map(str.isdigit, piece)):
         return piece
+    labelled = _LABEL_BEFORE_WORD.match(piece)
+    if labelled:
+        return f"{labelled[1]} = {_write_item_as_number(piece[labelled.end() :])}"
     plain = _SIGNED.sub("", piece)
     spelt = replace_number_word(plain)
     return piece if spelt == plain else f"{'-' if plain != piece else ''}{spelt}"
 
 
+_LABEL_BEFORE_WORD = re.compile(r"([A-Z]'?(?:_?\d)?)(?: ?[=:] ?| )(?=[^\W\d])")
+"""A letter before a number in words, ``G পঁচিশ``."""
 _REMARKED = re.compile(
     r"([-+−]?\d[^()]*?) ?\(([^\W\d][^()]*|\d+ ?%? (?:of|von) [^()]*"
     r"|\d+(?:\.|[.,]\d+)? ?[^\W\d]{3}[^()\d]*)\)"
 )
 _REMARK = re.compile(r"(?<=\d) ?\([^\W\d][^()\d;,]*\)")
 _MINUS = re.compile(r"(?<![^\W\d_])(?:minus|মাইনাস) (?=[.,]?\d)", re.IGNORECASE)
-_LAST_LIST = re.compile(r".*\d.*= ?(\([^()=]+\)|\[[^\[\]=]+\])", re.DOTALL)
+_LAST_LIST = re.compile(
+    r".*\d.*(?:=|:|, (?:so|thus|hence|therefore|also|daher|তাই)) ?(\([^()=]+\)|\[[^\[\]=]+\])",
+    re.DOTALL,
+)
 """The list at the end of equal ones: ``2·(1; 3) = (2; 6)``."""
 _ITEMS = re.compile(r"([;,\n] *| (?:and|und|ও|এবং|আর) )")
 

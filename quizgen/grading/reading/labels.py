@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from typing import TypeAlias
 
-from quizgen.grading.judging.spelling import fold_word
+from quizgen.grading.judging.spelling import find_translation, fold_word
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.locale import list_languages, load_words
 from quizgen.maths.notation import FormulaReadError
@@ -117,6 +117,7 @@ def _find_called_name(typed: str, names: AskedNames) -> str:
     if not isinstance(names, Mapping):
         return ""
     same = next((words for words in _same_labels() if typed in words), {typed})
+    same = {*same, *find_translation(typed)}
     fitting = [
         name
         for name, called in names.items()
