@@ -273,9 +273,9 @@ def _read_group(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
     if len(sides) == len(("left", "right")):
         pair = _find_pair(spec, *sides)
         return [pair] if all(pair) else []
-    words = group.split()
-    cuts = range(1, len(words)) if len(sides) == 1 else ()
-    found = {_find_pair(spec, " ".join(words[:cut]), " ".join(words[cut:])) for cut in cuts}
+    spoken = group.split()
+    cuts = range(1, len(spoken)) if len(sides) == 1 else ()
+    found = {_find_pair(spec, " ".join(spoken[:cut]), " ".join(spoken[cut:])) for cut in cuts}
     found = {pair for pair in found if all(pair)}
     return [*found] if len(found) == 1 else []
 

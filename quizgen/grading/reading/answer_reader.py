@@ -228,8 +228,7 @@ def _list_plainer_values(text: str, names: AskedNames, *, ranges: bool) -> Itera
     yield from bind_values(text, names, scan_numbers)
     last = _LAST_LIST.fullmatch(text)
     corrected = _load_around_words().correcting.fullmatch(text)
-    if last or corrected:
-        yield last[1] if last else corrected["rest"]
+    yield from ([last[1]] if last else [corrected["rest"]] if corrected else [])
 
 
 _NOUN_BEHIND = re.compile(r"([=:] ?[-+−]?\d[\d.,/]*) ([^\W\d_]{4,})(?= *(?:[,;\n]|$))")
