@@ -274,7 +274,7 @@ def _read_group(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
         pair = _find_pair(spec, *sides)
         return [pair] if all(pair) else []
     spoken = group.split()
-    cuts = range(1, len(spoken)) if len(sides) == 1 else ()
+    cuts = range(1, len(spoken)) if len(sides) == 1 and len(spoken) <= MOST_WORDS else ()
     found = {_find_pair(spec, " ".join(spoken[:cut]), " ".join(spoken[cut:])) for cut in cuts}
     found = {pair for pair in found if all(pair)}
     return [*found] if len(found) == 1 else []
@@ -305,6 +305,8 @@ def _find_side(spec: MatchSpec, words: str, labels: Sequence[str]) -> str:
     return labels[place - 1] if place else ""
 
 
+MOST_WORDS = 12
+"""Words of a pair that nothing parts."""
 _NUMBERED_SIDE = re.compile(
     r"(?:(?:setting|picture|photo|number|option|graph|curve|কার্ভ|ছবি|Bild) )?(\d)"
 )
