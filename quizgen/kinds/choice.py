@@ -50,7 +50,7 @@ _TRUE = frozenset(
         "হাঁ",
         "satya",
     }
-    | {"ja klar", "klar", "sure", "of course", "natürlich", "অবশ্যই", "আছে", "হ্যাঁ আছে"}
+    | {"ja klar", "of course", "natürlich", "অবশ্যই", "আছে", "হ্যাঁ আছে"}
     | {"hyã", "ha", "hã", "hae", "ঠিক কথা", "সত্য কথা", "সত্যি কথা", "satyi"}
     | {"thik", "sothik", "sotti", "haan", "hya"}
     | {"সত্য", "হ্যাঁ", "হ্যা", "সত্যি", "ঠিক", "সঠিক", "স", "1", "✓", "✔"}
@@ -107,7 +107,9 @@ _TRUTH_FIRST = re.compile(
     r"(?P<first>[^\s,;:.(]+)(?!(?<=\d)[.,]\d)"
     r"(?:[,;:.] ?| (?=\()| ?[-–—] "
     r"| (?=it |it's |its |that's |you |we |there |they |this |that |weil |because ))(?P<rest>.+)"
-    r"|(?P<alone>true|false|wahr|falsch|yes|[tf]|সত্য|মিথ্যা)(?! (?:is|are|if|when|for|or|oder|wenn) )"
+    r"|(?P<alone>true|false|wahr|falsch|yes|[tf]|সত্য|মিথ্যা)(?! (?:is|are|if|when|for|or|oder"
+    r"|wenn|and|und"
+    r"|but|aber|no|not|nein|nicht) )"
     r" (?P<more>\S+ \S.*)"
 )
 """*Yes* or *false* with a reason behind it; ``0.5`` is neither."""

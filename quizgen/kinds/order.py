@@ -71,7 +71,8 @@ _STEP_NUMBER = re.compile(
 _COMPARED = re.compile(r"(?<![-=])[<>](?!>)")
 _MARKED = re.compile(r"\(([A-Z])\)")
 """The label of a step in brackets behind its words."""
-_STEP_LABEL = re.compile(r"([A-Z]) ?[(:] ?([^()]+)\)?")
+_STEP_LABEL = re.compile(r"([A-Z])(?: ?[(:] ?|(?<!A) (?=[^\W\d]{2}))([^()]+)\)?")
+"""The label of a step before its words; ``A`` may be the article of these."""
 _LINE = re.compile(
     r"(?<![^\s,;(])\(?(\d{1,2})(?: ?[.):]+ ?| ?[=-] ?(?=[^\W\d])| (?=[^\W\d]))"
     r"([^\s,;.:()\d]+|\d{1,2}(?![.):]))(?![^\s,;.])"

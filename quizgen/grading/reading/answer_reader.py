@@ -107,6 +107,12 @@ class _AroundWords(NamedTuple):
     denying: re.Pattern[str]
     correcting: re.Pattern[str]
     """A value that its writer has put in place of another, ``0.566 no, 0.569``."""
+    becoming: re.Pattern[str]
+    """What tells where a value goes, ``it drops to 208``: ``to`` is no range then."""
+    rounded: re.Pattern[str]
+    """What stands between a value and the same one rounded."""
+    rounding: re.Pattern[str]
+    """How far a value is said to be rounded, behind it."""
 
 
 @cache
@@ -142,26 +148,25 @@ def _load_around_words() -> _AroundWords:
             r"(?P<rest>[-+−]?[.,]?\d[^,;]*|[(\[][^()\[\]]*\d[^()\[\]]*[)\]])",
             re.IGNORECASE | re.DOTALL,
         ),
+        re.compile(
+            rf"^([^\d]*(?:{listed['becoming']})(?: (?:{listed['where']}))?) (?:{listed['onto']})"
+            r" (?=[-+−≈~]?[.,]?\d)",
+            re.IGNORECASE,
+        ),
+        re.compile(
+            rf",? (?:{listed['rounded']})(?: (?:{listed['onto']}))?:? (?=[-+−]?[.,]?\d)",
+            re.IGNORECASE,
+        ),
+        re.compile(
+            rf"[ ,(]+(?:{listed['rounded']}) (?:{listed['onto']}) \w+ (?:{listed['places']})\)?$",
+            re.IGNORECASE,
+        ),
     )
 
 
 _NO_UNIT_BEFORE_A_WORD = frozenset({"in", "a", "as", "at", "am", "um", "d", "to", "so", "is"})
 _IN_UNIT = re.compile(r"(?<=\d) ?\(? ?in ([^\W\d_°]+|°)\)?$", re.IGNORECASE)
 _CLOCK = re.compile(r"(\d{1,2})(?::([0-5]\d) ?h| ?h ?([0-5]\d))")
-_ROUNDED = re.compile(r",? (?:rounded|gerundet)(?: to| auf)?:? (?=[-+−]?[.,]?\d)", re.IGNORECASE)
-"""Between a value and the same one rounded."""
-_ROUNDING = re.compile(
-    r"[ ,(]+(?:rounded|gerundet) (?:to|auf) \w+ (?:significant |signifikante )?"
-    r"(?:decimal|digit|figure|place|stelle|nachkommastelle|ziffer)s?n?(?: places)?\)?$",
-    re.IGNORECASE,
-)
-_BECOMING = re.compile(
-    r"^([^\d]*(?:drop|fall|rise|wrap|goe|come|grow|change|sink|amount|shrink|increase|decrease|lead|"
-    r"saturate|clip|clamp|round)(?:s|ed|ped|es)?"
-    r"(?: (?:around|round|down|up|back|over|it))?) to (?=[-+−≈~]?[.,]?\d)",
-    re.IGNORECASE,
-)
-"""What tells where a value goes, ``it drops to 208``: ``to`` is no range then."""
 _CALLED = re.compile(r"[\w-]\(?$|-\s*$")
 """A call of a function, or a dash, right before a number."""
 _BETWEEN = re.compile(r"[\s\w.,:;\u0980-\u09ff-]*")
@@ -274,7 +279,9 @@ def write_in_signs(typed: str) -> str:
 
 def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
     """Yield the one number among words; a quantity needs its unit if words follow."""
-    named_by, text = text, _BECOMING.sub(r"\1 ", _ROUNDING.sub("", _NAMED.sub("", text)))
+    around = _load_around_words()
+    named_by, text = text, _NAMED.sub("", text)
+    text = around.becoming.sub(r"\1 ", around.rounding.sub("", text))
     text = _IN_UNIT.sub(r" \1", text)
     if text != named_by:
         yield text
@@ -287,12 +294,12 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
     clock = _CLOCK.fullmatch(text)
     if clock:
         yield add_mixed_units(f"{int(clock[1])} h {int(clock[2] or clock[3])} min")
-    found, around = scan_numbers(text)
-    around = [*around[:-1], _DISTANCE.sub(" ", around[-1])]
-    if len(found) != 1 or found[0] == text or not _can_be_dropped(around):
+    found, words = scan_numbers(text)
+    words = [*words[:-1], _DISTANCE.sub(" ", words[-1])]
+    if len(found) != 1 or found[0] == text or not _can_be_dropped(words):
         return
-    behind = _WORD.search(around[1])
-    named = behind is not None and behind[0].lower() not in _load_around_words().leading_on
+    behind = _WORD.search(words[1])
+    named = behind is not None and behind[0].lower() not in around.leading_on
     if not found[0][-1].isdigit() or not (named or (behind and form == "quantity")):
         yield found[0]
 
@@ -435,7 +442,7 @@ def _write_words_as_numbers(text: str) -> str:
     """Return ``minus sixteen`` as ``-16``, ``27 min 26 s`` as ``1646 s``."""
     for name in ("digits", "blanks"):
         text = SourceText.of(text).substitute(*REWRITES[name]).text
-    text = _ROUNDED.sub(" ≈ ", _UNDERSCORED.sub("", text))
+    text = _load_around_words().rounded.sub(" ≈ ", _UNDERSCORED.sub("", text))
     typed_array = _TYPED_NUMBER.fullmatch(text)
     text = typed_array[1] if typed_array else text
     text = _write_share_of_unit(text)
