@@ -244,7 +244,10 @@ def _is_in_base_units(first: EqualitySide, second: EqualitySide) -> bool:
     if len(worked) != 1 or not first.quantity.unit or not second.quantity.unit or a * b <= 0:
         return False
     factor = first.quantity.unit.factor
-    return any(bool(abs(a - b * scale) <= _CLOSE * abs(a)) for scale in (factor, 1 / factor))
+    scales = [factor, *(fmpq(1000) ** power for power in range(1, 5))]
+    return any(
+        bool(abs(a - b * scale) <= _CLOSE * abs(a)) for one in scales for scale in (one, 1 / one)
+    )
 
 
 _WORKED_OUT = re.compile(r"\d ?[*/^] ?\d")

@@ -205,6 +205,14 @@ def reorder_by_name(items: list[SourceText], names: AskedNames) -> list[SourceTe
     return [placed[name] for name in names]
 
 
+def are_counted_off(items: list[SourceText]) -> bool:
+    """Return whether the names of values only count them off: x, y, z; S1, S2, S3."""
+    names = [split_name(item)[0] for item in items]
+    last = "".join(name[-1:] for name in names)
+    alike = all(names) and len({name[:-1] for name in names}) == 1
+    return alike and any(counted.startswith(last) for counted in ("xyz", "123456789"))
+
+
 _LEADING = re.compile(rf"(?:{NAME}|{WORDS}) ?(?:=|≈|:|:=) ?")
 
 
