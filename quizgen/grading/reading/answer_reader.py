@@ -499,7 +499,8 @@ _REMARKED = re.compile(
 _REMARK = re.compile(r"(?<=\d) ?\([^\W\d][^()\d;,]*\)")
 _MINUS = re.compile(r"(?<![^\W\d_])(?:minus|মাইনাস) (?=[.,]?\d)", re.IGNORECASE)
 _LAST_LIST = re.compile(
-    r"(?:.*\d.*|[^(,;]+)(?:=|:|, (?:so|thus|hence|therefore|also|daher|তাই)) ?(\([^()=]+\)|\[[^\[\]=]+\])",
+    r"(?:.*\d.*|[^(,;]+)(?:=|:|, (?:so|thus|hence|therefore|also|daher|তাই)) ?"
+    r"(\([^()=]+\)|\[[^\[\]=]+\])",
     re.DOTALL,
 )
 """The list at the end of equal ones: ``2·(1; 3) = (2; 6)``."""
