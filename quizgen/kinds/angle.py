@@ -120,7 +120,7 @@ def _list_spellings(typed: str) -> Iterator[str]:
     Inverse functions give degrees on the calculators of most people: ``arctan(0.16) = 9.09°``.
     """
     typed = _CIRCLE.sub("°", typed)
-    typed = _ARC_MINUTES.sub(r"(\1/60)°", typed)
+    typed = _ARC_MINUTES.sub(r"(\1/60)°", typed) if len(typed) <= LONGEST else typed
     minutes = _MINUTES.fullmatch(typed.strip())
     if minutes:
         typed = f"({minutes[1]} + {minutes[2]}/60 + {minutes[3] or 0}/3600)°"
