@@ -17,7 +17,7 @@ A language file has a title, a stem, one section per part and lists of named sen
                       comes later, a gap takes its word
     ## words          wording of drawn phrases
     ## points         the ideas that sentences are marked by, by criterion
-    ## accept         examples of what counts for one, with | between; then half, refuse
+    ## accept         examples of what counts for one, with | between; then half, refuse, about
     ## model          the model answer, by part
     ## note           a remark shown with the solution (where the notes differ, and why)
 
@@ -57,6 +57,7 @@ NAMED_SECTIONS = frozenset(
         "accept",
         "half",
         "refuse",
+        "about",
         "model",
         "reasons",
         "claims",

@@ -22,7 +22,9 @@ from quizgen.grading.judging.statements import (
     Meaning,
     Statement,
     Subject,
+    Words,
     read_subject,
+    read_words,
 )
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.normalise import refuse_invisible, refuse_long_prose
@@ -99,7 +101,9 @@ class Criterion(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
                 forbid_unknown_fields=True):  # fmt: skip
     """One criterion: its points, and examples of what counts, what half, what not.
 
-    ``follows`` names the criterion that it may follow from although that one is wrong.
+    ``follows`` names the criterion that it may follow from although that one is wrong. ``about``
+    are words for what it is said of, where a part compares things: said of another thing, it does
+    not count.
     """
 
     points: Scalar
@@ -107,6 +111,7 @@ class Criterion(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
     half: list[str] = []
     refuse: list[str] = []
     follows: str = ""
+    about: list[str] = []
 
     @property
     def worth(self) -> Fraction:
@@ -220,7 +225,11 @@ class RubricSpec(WordSpec, kw_only=True, frozen=True):
         read = {name: self._read_examples(name, subject) for name in self.criteria}
         examples = [example for listed in read.values() for example in listed]
         text.know(examples)
-        evidence = {name: text.find(listed) for name, listed in read.items()}
+        named = {name: read_words(one.about, subject) for name, one in self.criteria.items()}
+        evidence = {
+            name: text.find(listed, named[name], _list_others(named, name))
+            for name, listed in read.items()
+        }
         first = {name: _sum_up(found) for name, found in evidence.items()}
         findings, spots = [], set[tuple[int, int]]()
         for name, one in self.criteria.items():
@@ -300,6 +309,13 @@ EARNING = frozenset({"found", "half", "follows"})
 SHARES = {"found": Fraction(1), "half": HALF, "follows": Fraction(1)}
 
 
+def _list_others(named: Mapping[str, frozenset[Words]], name: str) -> frozenset[Words]:
+    """Return the words for what other criteria are said of, which have none of its own words."""
+    mine = named[name]
+    others = [words for words in named.values() if words.isdisjoint(mine)]
+    return frozenset[Words]().union(*others) if mine else frozenset()
+
+
 def _sum_up(found: list[Evidence]) -> tuple[Status, Evidence | None]:
     """Return what all clauses together suggest, and the evidence that it goes by.
 
@@ -347,11 +363,16 @@ def ask(part: PartContext) -> AskedPart[RubricSpec]:
             refuse=part.accepted_words(name, "refuse")
             + [w for m, of in mistakes.items() if of == name for w in refused[m]],
             follows=follows.get(name, ""),
+            about=part.accepted_words(name, "about"),
         )
         for name, points in answer["criteria"].items()
     }
     names = [(name, name) for name in criteria]
-    used = [words for one in criteria.values() for words in (*one.accept, *one.half, *one.refuse)]
+    used = [
+        words
+        for one in criteria.values()
+        for words in (*one.accept, *one.half, *one.refuse, *one.about)
+    ]
     used += [words for listed in refused.values() for words in listed]
     spec = make_spec(
         RubricSpec,

@@ -144,6 +144,70 @@ def test_what_is_denied_is_never_found_and_what_is_right_is_never_overlooked(tab
     assert not [said for said, _, points, made in found if sum(points) >= 1 and not made.touched]
 
 
+def draw_part(template, part):
+    """Return the specification of a part, with the values that its sentences are about."""
+    known = (
+        values for name, index, values, _ in SCHEMES.values() if (name, index) == (template, part)
+    )
+    wanted = next(known, {})
+    for seed in range(1, 500):
+        drawn = draw_variant(builtin_bank().template(template), seed)
+        if all(drawn.shown_values[name] == value for name, value in wanted.items()):
+            return ask_part(drawn, part).spec
+    raise LookupError(template)
+
+
+@pytest.mark.slow
+def test_a_contradiction_is_never_counted():
+    rows = tomllib.loads((Path(__file__).parent / "contradictions.toml").read_text("utf-8"))["rows"]
+    specs = {place: draw_part(*place) for place in {tuple(row[:2]) for row in rows}}
+    counted = []
+    for template, part, names, sentence in rows:
+        points = {one.name: one.points for one in specs[template, part].suggest(sentence).findings}
+        counted += [(sentence, name) for name in names.split() if points[name]]
+    assert not counted
+
+
+COMPARED = {
+    "kind": "rubric", "full": "2", "synonyms": [],
+    "criteria": {
+        "ccd": {"points": "1", "accept": ["streaks", "higher price"], "about": ["CCD"]},
+        "cmos": {"points": "1", "accept": ["leaning poles"], "about": ["CMOS"]},
+    },
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("sentence", "ccd", "cmos"), [
+    ("Streaks; leaning poles.", "found", "found"),
+    ("CCD: streaks. CMOS: leaning poles.", "found", "found"),
+    ("CMOS: streaks. CCD: leaning poles.", "open", "open"),
+    ("Streaks are typical of CMOS chips and leaning poles of a CCD.", "open", "open"),
+    ("CMOS, as one sees, has streaks", "open", "missing"),
+    ("The CCD has a higher price than CMOS", "found", "missing"),
+    ("Unlike CMOS it has streaks", "open", "missing"),
+    ("CCDs are free of streaks", "open", "missing"),
+])  # fmt: skip
+def test_what_is_said_of_another_thing_is_left_to_a_person(sentence, ccd, cmos):
+    from quizgen.kinds.grade import load_spec
+
+    made = load_spec(COMPARED).suggest(sentence)
+    assert [finding.status for finding in made.findings] == [ccd, cmos]
+
+
+@pytest.mark.parametrize(("sentence", "status"), [
+    ("The near one grows more than the far one.", "found"),
+    ("The far one grows more than the near one.", "open"),
+    ("Das Nahe wächst stärker als das Ferne.", "found"),
+    ("Das Ferne wächst stärker als das Nahe.", "open"),
+])  # fmt: skip
+def test_both_sides_of_a_comparison_stand_on_their_side(sentence, status):
+    from quizgen.kinds.grade import load_spec
+
+    accept = ["near one grows more than the far one", "das Nahe wächst stärker als das Ferne"]
+    spec = {"kind": "rubric", "full": "1", "criteria": {"a": {"points": "1", "accept": accept}}}
+    assert load_spec(spec).suggest(sentence).findings[0].status == status
+
+
 SPEC = {
     "kind": "rubric", "full": "2", "synonyms": [["dof", "depth of field", "Schärfentiefe"]],
     "criteria": {
@@ -174,6 +238,7 @@ SPEC = {
     ("dof kome, chobi ujjol", "found", "missing"),
     ("depht of feild decreses", "found", "missing"),
     ("without more light", "missing", "refused"),
+    ("The shot has a depth of field.", "missing", "missing"),  # no short one
     ("", "missing", "missing"),
     ("(((( ^^ -> ] 1/0 √ |", "missing", "missing"),
 ])  # fmt: skip
@@ -182,6 +247,15 @@ def test_the_sign_of_a_statement(sentence, dof, light):
 
     made = load_spec(SPEC).suggest(sentence)
     assert [finding.status for finding in made.findings] == [dof, light]
+
+
+def test_a_root_is_one_with_what_stands_under_it():
+    from quizgen.kinds.grade import load_spec
+
+    spec = load_spec({"kind": "rubric", "full": "1", "criteria": {
+        "root": {"points": "1", "accept": ["SNR = √N"]}}})  # fmt: skip
+    said = {"SNR is sqrt N": "found", "SNR = √(2N)": "missing", "√M is the SNR of N": "missing"}
+    assert {one: spec.suggest(one).findings[0].status for one in said} == said
 
 
 def test_the_clause_that_is_gone_by_is_quoted():

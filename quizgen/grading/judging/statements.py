@@ -13,8 +13,8 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cache, cached_property, lru_cache
 from typing import Literal, NamedTuple
 
@@ -93,12 +93,7 @@ def _drop_brackets(tokens: list[WordToken]) -> list[WordToken]:
     for place, text in enumerate(texts[:-3]):
         if text == "sqrt" and texts[place + 1] == "(" and texts[place + 3] == ")":
             dropped |= {place + 1, place + 3}
-    tied = {place + 1 for place in dropped}
-    return [
-        token._replace(tied=True) if place in tied and token.tied else token
-        for place, token in enumerate(tokens)
-        if place not in dropped
-    ]
+    return [token for place, token in enumerate(tokens) if place not in dropped]
 
 
 def _split_prefix(word: str) -> tuple[str, ...]:
@@ -113,6 +108,8 @@ def _split_prefix(word: str) -> tuple[str, ...]:
     return (folded,)
 
 
+Words = tuple[str, ...]
+"""A row of words, folded, that stands for one thing."""
 Scale = tuple[str, int]
 """The name of a scale, and 1 or -1 for its end."""
 
@@ -125,6 +122,7 @@ class _Vocabulary:
     breaks: frozenset[str]
     denials: frozenset[str]
     ahead: frozenset[str]
+    doubts: tuple[tuple[str, ...], ...]
     conditions: frozenset[str]
     harmless: frozenset[tuple[str, ...]]
     frames: tuple[tuple[str, ...], ...]
@@ -165,6 +163,7 @@ def _vocabulary() -> _Vocabulary:
         words("breaks"),
         words("denials"),
         words("ahead"),
+        tuple(rows("doubts")),
         words("conditions"),
         frozenset(rows("harmless")),
         tuple(rows("frames")),
@@ -330,15 +329,15 @@ class Example:
         What must be said; several where one follows the other.
     denied : bool
         Whether it holds a word of denial itself.
-    compared : bool
-        Whether it compares with something itself.
+    compared : int
+        Number of things that it says before it compares them with others; 0 if it does not.
     """
 
     text: str
     meaning: Meaning
     steps: tuple[tuple[_Item, ...], ...]
     denied: bool
-    compared: bool
+    compared: int
 
     @property
     def size(self) -> int:
@@ -401,6 +400,16 @@ def read_subject(synonyms: tuple[tuple[str, ...], ...]) -> Subject:
     return Subject(synonyms)
 
 
+def read_words(texts: Iterable[str], subject: Subject) -> frozenset[Words]:
+    """Return names of a thing as rows of words, with all that mean the same in the subject."""
+    found = set[Words]()
+    for text in texts:
+        tokens = split_tokens(text)
+        rows, length = subject.find(tokens, 0)
+        found |= set(rows) if length == len(tokens) else {tuple(token.text for token in tokens)}
+    return frozenset(found)
+
+
 def _is_condition(words: Sequence[str], index: int) -> bool:
     """Return whether a word says under what condition a clause holds: *without a lens, ...*."""
     return index == 0 and len(words) > LONGEST_NOUN + 1 and words[0] in _vocabulary().conditions
@@ -410,7 +419,7 @@ def _read_example(text: str, meaning: Meaning, subject: Subject) -> Example:
     """Return an example of an idea, ready to be looked for."""
     known = _vocabulary()
     steps: list[list[_Item]] = []
-    denied = compared = False
+    denied, compared = False, 0
     for piece in text.replace("→", "->").split("->"):
         tokens = split_tokens(piece)
         steps.append([])
@@ -421,7 +430,8 @@ def _read_example(text: str, meaning: Meaning, subject: Subject) -> Example:
             denies = item is None and words[0] in known.denials | known.ahead
             if denies and not _is_condition([token.text for token in tokens], place):
                 denied = not denied
-            compared |= item is None and words[0] in known.than | known.than_behind
+            if item is None and words[0] in known.than | known.than_behind:
+                compared = max(len(steps[-1]), 1)
             steps[-1] += [item] if item else []
             place += length
     return Example(text, meaning, tuple(map(tuple, filter(None, steps))), denied, compared)
@@ -613,7 +623,7 @@ class Statement:
         after = self.tokens[place + 1] if place + 1 < len(self.tokens) else None
         if after and after.tied:
             return False
-        if len(before) == 1:
+        if len(before) == 1 and before.isalnum():
             return place > 1 and after is not None and self._is_capitalised(place - 1, place + 1)
         return bool(before) and before not in {"vs", "etc", "ca"}
 
@@ -703,13 +713,24 @@ class Statement:
         rows = (row for one in examples for step in one.steps for item in step for row in item.rows)
         self._known = frozenset(word for row in rows for word in row)
 
-    def find(self, examples: Iterable[Example]) -> list[Evidence]:
+    def find(
+        self,
+        examples: Iterable[Example],
+        mine: Collection[Words] = (),
+        others: Collection[Words] = (),
+    ) -> list[Evidence]:
         """Return what the clauses do with an idea, by its examples; the best fit for each clause.
 
         After a word of correction (*no: brighter*), what was said of the idea before is dropped.
+
+        Parameters
+        ----------
+        examples : iterable of Example
+        mine, others : collection of tuple of str, optional
+            What the idea is said of, and what other ideas are said of instead, each a row of words.
         """
         found = [
-            one
+            self._open_if_unsure(one, example, mine, others)
             for example in examples
             if self._may_hold(example)
             for one in self._iter_evidence(example)
@@ -722,6 +743,80 @@ class Statement:
             if clause.corrects and any(one.first > index for one in kept):
                 kept = [one for one in kept if one.first > index]
         return sorted(kept, key=lambda one: one.first)
+
+    def _open_if_unsure(
+        self,
+        evidence: Evidence,
+        example: Example,
+        mine: Collection[Words],
+        others: Collection[Words],
+    ) -> Evidence:
+        """Return evidence, left open where its clauses doubt it, or say it of something else."""
+        if evidence.meaning not in {"said", "half"}:
+            return evidence
+        clauses = range(evidence.first, evidence.last + 1)
+        unsure = (
+            self._is_said_of_another(evidence, mine, others)
+            or any(self._has_doubt(self.clauses[at], evidence.places) for at in clauses)
+            or self._has_other_end(evidence, example)
+        )
+        return replace(evidence, meaning="open") if unsure else evidence
+
+    def _has_doubt(self, clause: _Clause, places: Sequence[int]) -> bool:
+        """Return whether a clause holds words such as *fails to*, which no example foresees."""
+        words = [self.tokens[at].text for at in clause.places]
+        return any(
+            clause.places[at] not in places and tuple(words[at : at + len(row)]) == row
+            for row in _vocabulary().doubts
+            for at in range(len(words))
+        )
+
+    def _has_other_end(self, evidence: Evidence, example: Example) -> bool:
+        """Return whether clauses also say the other end of a scale of an example.
+
+        Of sameness in any clause (*equal distances look unequal*), else in one of several.
+        """
+        names = {"sameness"} if evidence.first == evidence.last else {"sameness", "amount"}
+        wanted = {
+            scale
+            for step in example.steps
+            for item in step
+            for scale in item.scales
+            if scale[0] in names
+        }
+        wanted -= {(name, -sign) for name, sign in wanted}
+        return bool(wanted) and any(
+            (name, -sign) in wanted
+            for clause in self.clauses[evidence.first : evidence.last + 1]
+            for at in clause.places
+            if at not in evidence.places
+            for name, sign in self._scales_at(at)
+        )
+
+    def _is_said_of_another(
+        self, evidence: Evidence, mine: Collection[Words], others: Collection[Words]
+    ) -> bool:
+        """Return whether a word of an idea stands in a clause that speaks of another thing.
+
+        A clause that names nothing speaks of what was named last in its sentence.
+        """
+        if not others:
+            return False
+        for index in {self._clause_of(at) for at in evidence.places}:
+            for clause in reversed(self.clauses[: index + 1]):
+                if clause.sentence != self.clauses[index].sentence or self._names(clause, mine):
+                    break
+                if self._names(clause, others):
+                    return True
+        return False
+
+    def _names(self, clause: _Clause, rows: Iterable[Words]) -> bool:
+        """Return whether a clause names one of some things, and does not compare with it."""
+        return any(
+            at not in clause.compared and _has_row(self.tokens, at, row, known=self._known)
+            for row in rows
+            for at in clause.places
+        )
 
     def _may_hold(self, example: Example) -> bool:
         """Return whether every word of an example is there; most have one that is nowhere."""
@@ -806,13 +901,20 @@ class Statement:
             return None
         taken: list[int] = []
         blocked = set[int]() if example.compared else self._compared_tokens
-        for item in items:
+        than = [at for at in places if self.tokens[at].text in _vocabulary().than]
+        exchanged = False
+        for index, item in enumerate(items):
             if item.scales:
                 continue
             rows = self._find_rows(item, places)
             rows = [row for row in rows if not set(row) & (blocked | set(taken))]
             if not rows:
                 return None
+            if example.compared and than:  # *more of this than of that*: each on its side
+                ahead = index < example.compared
+                sided = [row for row in rows if (row[0] < than[0]) == ahead]
+                exchanged |= not sided
+                rows = sided or rows
             taken += _nearest_row(rows, taken)
         sign, flips = 1, 0
         for item in items:
@@ -824,8 +926,7 @@ class Statement:
             flips += end < 0
             sign *= end
             taken += [place]
-        general = all(item.is_general for item in items)
-        return (0 if general and flips > 1 else sign), tuple(sorted(taken))
+        return (0 if flips > 1 or exchanged else sign), tuple(sorted(taken))
 
     @cached_property
     def _compared_tokens(self) -> set[int]:
@@ -955,7 +1056,14 @@ class Statement:
         clause = self.clauses[index]
         denied = self._is_denied(clause, places)
         turned = sign < 0
-        unsure = sign == 0 or denied is None or self._has_degree(clause, places, example)
+        opens_with = self.tokens[clause.places[0]].text
+        contrast = example.denied and index and opens_with in {"not", "nicht"}
+        unsure = (
+            sign == 0  # or *it is this, not that*: that there is no *that* is not said
+            or denied is None
+            or (contrast and clause.sentence == self.clauses[index - 1].sentence)
+            or self._has_degree(clause, places, example)
+        )
         if unsure or (sign < 0 and (denied or example.denied)):  # *not narrower* is not *wider*
             meaning: Meaning = "open"
         else:
