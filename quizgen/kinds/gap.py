@@ -375,10 +375,12 @@ def _drop_remark(word: str, terms: list[str]) -> str:
     if fold_word(plain) in map(fold_word, terms):
         return plain
     inside = _translate_word(remark.strip(" )"), terms)
-    foreign = not _holds_a_term(outside, terms) and fold_word(inside) in map(fold_word, terms)
-    return inside if foreign else word
+    translated = _BANGLA.search(outside) and not _BANGLA.search(remark)
+    foreign = translated and not _holds_a_term(outside, terms)
+    return inside if foreign and fold_word(inside) in map(fold_word, terms) else word
 
 
+_BANGLA = re.compile("[\u0980-\u09ff]")
 _OFFERED = re.compile(
     r"^ ?(?:not|or|nicht|oder|maybe|perhaps|\?|না)|(?:^|[ ,])(?:or|oder|বা|অথবা) ", re.IGNORECASE
 )

@@ -34,8 +34,11 @@ from quizgen.maths.notation import FormulaReadError
 
 MOST_STEPS = 40
 _LETTERED = r"[A-Za-z](?:(?:,| and| or| und)? [A-Za-z])*"
+_WRONG = r"\b(?:wrong|false|falsch|keine?n?|nicht|not|no|never|nie|না|নেই|নয়|ভুল)(?!\w)"
+"""A word that says why a step is none."""
 _LEFT_OUT = re.compile(
-    r"(?P<kept>[^()]+) \((?P<aside>[A-Z]) [^()]{3,}\)|(?P<behind>.+)(?:[,;:.] ?| ?\("
+    rf"(?P<kept>[^()]+) \((?P<aside>[A-Z])(?= [^()]*{_WRONG}) [^()]{{3,}}\)"
+    r"|(?P<behind>.+)(?:[,;:.] ?| ?\("
     r"| (?=without |leav|ohne |বাদ |not |but |and not |no |nicht |except ))"
     r"(?:(?:without|leave out|leaving out|leaves out|ohne|বাদ) (?P<out>[^()]+)"
     rf"|(?:(?:and |but |und )?(?:not|no|nicht)|except|außer) (?P<denied>{_LETTERED})"
