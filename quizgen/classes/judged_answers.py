@@ -16,7 +16,7 @@ from typing import TypeVar
 import msgspec
 
 from quizgen.core.cache import compute_digest
-from quizgen.core.decoding import json_decoder
+from quizgen.core.decoding import json_decoder, prepare_type
 from quizgen.core.files import PRIVATE, write_all
 
 FILE = ".judged.jsonl"
@@ -67,6 +67,7 @@ class JudgedAnswers:
         line = self._before.get(name)
         if line is None or line.seal != self._seal(name, bytes(line.found)):
             return None
+        prepare_type(shape)
         try:
             found = msgspec.json.decode(
                 line.found, type=shape, dec_hook=lambda kind, text: kind(text)

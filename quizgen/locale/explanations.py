@@ -63,31 +63,32 @@ def choose_explained_language(langs: Sequence[str]) -> str:
 
 
 @cache
-def load_error_patterns(lang: str) -> tuple[tuple[re.Pattern[str], str], ...]:
-    """Return what matches each English sentence of an error, and the sentence for it."""
+def load_error_patterns(lang: str) -> tuple[str, tuple[tuple[re.Pattern[str], str], ...]]:
+    """Return how a line is named, what matches each English sentence of an error, and its words."""
     file = SHIPPED / lang / "errors.toml"
-    said = tomllib.loads(file.read_text("utf-8"))["sentences"] if file.exists() else {}
+    said = tomllib.loads(file.read_text("utf-8")) if file.exists() else {"sentences": {}}
     found = []
-    for english in sorted(said, key=len, reverse=True):
+    for english in sorted(said["sentences"], key=len, reverse=True):
         pieces = _BLANK.split(english)
         body = "".join(
             f"(?P<at{piece}>.*?)" if place % 2 else re.escape(piece)
             for place, piece in enumerate(pieces)
         )
-        found.append((re.compile(f"(?P<place>(?:.*?: )?){body}"), said[english]))
-    return tuple(found)
+        pattern = re.compile(f"(?P<place>(?:.*?: )?){body}")
+        found.append((pattern, said["sentences"][english]))
+    return said.get("line", _LINE_IN_ENGLISH), tuple(found)
 
 
 def translate_error(message: str, lang: str) -> str:
     """Return an error in a language, after its place; as it is if it is none of the listed."""
-    for pattern, sentence in load_error_patterns(lang):
+    line, patterns = load_error_patterns(lang)
+    for pattern, sentence in patterns:
         if match := pattern.fullmatch(message):
-            place = _LINE.sub(TRANSLATED_LINE.get(lang, r"\g<0>"), match["place"])
+            place = _LINE.sub(lambda found: line.format(found[1]), match["place"])
             return place + _BLANK.sub(lambda blank: match[f"at{blank[1]}"], sentence)
     return message
 
 
 _BLANK = re.compile(r"\{(\d)\}")
 _LINE = re.compile(r"\bline (\d+)")
-TRANSLATED_LINE = {"de": r"Zeile \1"}
-"""How the place of an error names a line."""
+_LINE_IN_ENGLISH = "line {}"
