@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
@@ -9,6 +10,7 @@ from functools import lru_cache
 import msgspec
 
 from quizgen.bank.bank import Bank
+from quizgen.bank.markdown import PlainText, leaves
 from quizgen.bank.sampler import Sampler, sampler_for
 from quizgen.bank.template import Template
 from quizgen.bank.variant import SiblingContent, Variant, draw_variant, leading_digits
@@ -18,7 +20,7 @@ from quizgen.kinds import expression
 from quizgen.kinds.contract import asked_quantities
 from quizgen.maths.canonical import CanonicalForm, canonical_equation
 from quizgen.maths.notation import format_tree
-from quizgen.maths.numbers import to_float
+from quizgen.maths.numbers import parse_written_number, to_float
 from quizgen.maths.tree import Expr, substitute
 from quizgen.maths.values import Value
 from quizgen.question.figure import has_coloured_figure
@@ -40,6 +42,8 @@ class _SeenContent(msgspec.Struct):
     questions: set[str] = msgspec.field(default_factory=set)
     asked: set[str] = msgspec.field(default_factory=set)
     given: set[str] = msgspec.field(default_factory=set)
+    written: frozenset[str] = frozenset()
+    """Numbers that stand in the prose of all questions of the paper but the next one."""
 
     def add(self, one: Variant) -> None:
         """Add what a variant asks and states."""
@@ -50,9 +54,8 @@ class _SeenContent(msgspec.Struct):
     def tells(self, one: Variant) -> bool:
         """Return whether a variant asks what is asked or stated, or states what is asked."""
         asked = _collect_notable_answers(one)
-        return bool(
-            asked & self.asked or asked & self.given or self.asked & _collect_stated_numbers(one)
-        )
+        told = self.asked | self.given | self.written
+        return bool(asked & told or self.asked & _collect_stated_numbers(one))
 
 
 def draw_variants(
@@ -78,7 +81,9 @@ def draw_variants(
         If a question would stand in the paper again and has no other numbers.
     """
     seen = _SeenContent()
+    written = {name: _list_written_numbers(bank.template(name)) for name in names}
     for place, name in enumerate(names, 1):
+        seen.written = frozenset[str]().union(*(written[one] for one in names if one != name))
         near = [paper[place - 1] for paper in beside]
         one = _draw_least_revealing(bank.template(name), seed, place, seen, near, colour=colour)
         seen.add(one)
@@ -161,6 +166,21 @@ def _collect_stated_numbers(one: Variant) -> set[str]:
         for text in map(leading_digits, one.shown.values())
         if _count_significant_digits(text) >= DIGITS
     }
+
+
+_NUMBER = re.compile(r"(?<![\w./])\d+\.\d+(?![\w.]*\d)")
+
+
+def _list_written_numbers(template: Template) -> frozenset[str]:
+    """Return the decimals in the prose of a question, which stand in every variant of it."""
+    found: set[str] = set()
+    for text in template.texts.values():
+        for blocks in (text.stem, *(text.sections.get(name, ()) for name in template.labels)):
+            pieces = [one.text for one in leaves(blocks) if isinstance(one, PlainText)]
+            found |= {
+                leading_digits(parse_written_number(n)) for n in _NUMBER.findall(" ".join(pieces))
+            }
+    return frozenset(text for text in found if _count_significant_digits(text) >= DIGITS)
 
 
 def _count_significant_digits(text: str) -> int:

@@ -168,6 +168,27 @@ def test_a_contradiction_is_never_counted():
     assert not counted
 
 
+@pytest.mark.slow
+def test_an_examiner_finds_the_same_criteria():
+    """What is right is never overlooked whole, and nothing is found where all is wrong."""
+    rows = tomllib.loads((Path(__file__).parent / "blind_criteria.toml").read_text("utf-8"))["rows"]
+    variants = {(name, seed) for name, seed, *_ in rows}
+    drawn = {place: draw_variant(builtin_bank().template(place[0]), place[1]) for place in variants}
+    specs, equal, asked = {}, 0, 0
+    for name, seed, part, found, sentence in rows:
+        place = (name, seed, part)
+        if place not in specs:
+            labels = [label or "a" for label in drawn[place[:2]].template.labels]
+            specs[place] = ask_part(drawn[place[:2]], labels.index(part)).spec
+        made = specs[place].suggest(sentence)
+        wanted = found.split()
+        equal += sum(bool(one.points) == (one.name in wanted) for one in made.findings)
+        asked += len(made.findings)
+        assert wanted or not made.points, sentence
+        assert len(wanted) < len(made.findings) or made.touched, sentence
+    assert equal >= 0.95 * asked
+
+
 COMPARED = {
     "kind": "rubric", "full": "2", "synonyms": [],
     "criteria": {
