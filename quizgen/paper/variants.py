@@ -41,6 +41,8 @@ class _SeenContent(msgspec.Struct):
 
     questions: set[str] = msgspec.field(default_factory=set)
     asked: set[str] = msgspec.field(default_factory=set)
+    printed: set[str] = msgspec.field(default_factory=set)
+    """Answers as keys print them, to three figures."""
     given: set[str] = msgspec.field(default_factory=set)
     written: frozenset[str] = frozenset()
     """Numbers that stand in the prose of all questions of the paper but the next one."""
@@ -49,13 +51,18 @@ class _SeenContent(msgspec.Struct):
         """Add what a variant asks and states."""
         self.questions.add(one.identity)
         self.asked |= _collect_notable_answers(one)
+        self.printed |= _round_as_printed(one)
         self.given |= _collect_stated_numbers(one)
 
     def tells(self, one: Variant) -> bool:
         """Return whether a variant asks what is asked or stated, or states what is asked."""
         asked = _collect_notable_answers(one)
-        told = self.asked | self.given | self.written
-        return bool(asked & told or self.asked & _collect_stated_numbers(one))
+        stated = _collect_stated_numbers(one)
+        told = self.given | self.written
+        answers = self.asked | self.printed
+        return bool(
+            asked & (self.asked | told) or _round_as_printed(one) & told or answers & stated
+        )
 
 
 def draw_variants(
@@ -146,6 +153,12 @@ def _collect_notable_answers(one: Variant) -> set[str]:
         for v in _iter_asked_values(one)
         if abs(to_float(v)) >= COUNTED or to_float(v) % 1
     }
+
+
+def _round_as_printed(one: Variant) -> set[str]:
+    """Return the decimals that are asked for, as keys print them: 11.14 is 11.1."""
+    rounded = (f"{abs(to_float(v)):.{DIGITS}g}" for v in _iter_asked_values(one))
+    return {n for n in rounded if "." in n and _count_significant_digits(n) == DIGITS}
 
 
 def _collect_answer_numbers(one: Variant) -> set[str]:
