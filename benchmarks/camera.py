@@ -82,8 +82,7 @@ def points(repeats: int) -> None:
 def fresh(effect: Effect, stack: tuple[Layer, ...], look: View) -> None:
     """Run an effect without what an earlier run has left."""
     vignetting._fall_off_map.cache_clear()
-    distortion.ratio_quadrant.cache_clear()
-    distortion._compute_whole_map.cache_clear()
+    distortion._build_inverse_table.cache_clear()
     effect.run(stack, look)
 
 

@@ -103,7 +103,7 @@ def test_no_python_file_names_a_language_but_english():
         assert not re.findall(rf"\b(?:{'|'.join(others)})\b", path.read_text("utf-8")), path
 
 
-SUBJECT = {"arrays", "camera", "tradeoff"}
+SUBJECT = {"numerics", "camera", "tradeoff"}
 """What pictures are made with: an effect or a formula may be called as a topic or a figure is."""
 OTHERWISE = {"code", "camera", "colour", "eye", "image", "projection"}
 """An answer kind, a command's word, a spelling, a word of every dictionary, an element of SVG, and a

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from sweep import spread
 
 from quizgen.core.errors import RenderError
 from quizgen.core.files import STALE, write_all
@@ -159,7 +160,7 @@ SETS = {
 
 
 @forks
-@pytest.mark.parametrize("seal", SETS)
+@pytest.mark.parametrize("seal", spread(SETS, 1))
 def test_a_command_killed_between_two_renames_leaves_a_whole_set_or_none(
     tmp_path, monkeypatch, seal
 ):

@@ -49,8 +49,9 @@ steps that are only checked.
 TAIL = """
 Beside them a step may hold what SymPy works out when the solver is compiled: `diff`, `integrate`,
 `limit`, `Derivative`, `Integral`, `Limit`, `Subs`, `det`, `inv`, matrix products, `re`, `im`,
-`conjugate`, `arg`, `Abs` and `I`; and {others}, which are written by the functions above. Compute
-before `with evaluate(False)` what needs evaluation, or leave `evaluate` out.
+`conjugate`, `arg`, `Abs` and `I`; and {others}, which are written by the functions above.
+Inside `with evaluate(False)`, too, `diff`, `integrate`, `solve` and the like are worked out, while
+formulas stay as they are written.
 
 A step is a **form** and no number if its formula holds a name of `free` (`Model(free=("x",),
 ...)`), or is a complex number, a `Matrix`, an `Interval`, a `Union`, a `FiniteSet` or an `Eq`.

@@ -18,6 +18,8 @@ from functools import cache, cached_property
 from pathlib import Path
 from types import MappingProxyType, ModuleType
 
+import msgspec
+
 from quizgen.bank.candidate import Candidate
 from quizgen.bank.drawn_lists import list_table_files
 from quizgen.bank.language_file import read_language_file
@@ -48,6 +50,7 @@ from quizgen.core.untrusted import (
     require_identifier,
 )
 from quizgen.kinds import KINDS
+from quizgen.kinds.contract import asked_quantities
 from quizgen.locale import list_languages, register_languages, resolve_language_choice
 from quizgen.locale.custom import TAG
 from quizgen.maths.chain import Chain
@@ -626,6 +629,7 @@ class Bank:
         files = [folder / "template.toml", *prose, *self._beside_template(name)]
         files += pictures_beside(folder)
         chain, source = self.chain(rules.solver) if rules.solver else (Chain({}, ()), b"")
+        chain = _add_asked_draws(chain, rules)
         texts = {path.stem: read_language_file(path) for path in prose}
         register_languages(sorted(texts))
         order = [lang for lang in list_languages() if lang in texts]
@@ -651,6 +655,15 @@ class Bank:
     def __len__(self) -> int:
         """Return how many templates there are; loads none."""
         return len(self.template_paths)
+
+
+def _add_asked_draws(chain: Chain, rules: Rules) -> Chain:
+    """Return a chain that also knows what is asked and drawn, not solved: it has no steps."""
+    asked = [name for part in rules.part for name in asked_quantities(part.answer)]
+    units = {n: r.unit for n, r in rules.draw.items()} | {n: r.unit for n, r in rules.data.items()}
+    drawn = {name: units[name] for name in asked if name in units}
+    more = {n: unit for n, unit in drawn.items() if n not in {*chain.given, *chain.by_name}}
+    return msgspec.structs.replace(chain, given={**chain.given, **more}) if more else chain
 
 
 def _has_checked_part(rules: Rules) -> bool:

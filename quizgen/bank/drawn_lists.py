@@ -24,8 +24,6 @@ MOST_DECIMALS = 12
 
 RationalList: TypeAlias = tuple[fmpq, ...]
 TextList: TypeAlias = tuple[str, ...]
-ListDraw: TypeAlias = Callable[[str, int, Mapping[str, Any]], RationalList]
-"""From stem, try and what is drawn before to the values of a list."""
 
 
 class TableFile(msgspec.Struct, frozen=True):

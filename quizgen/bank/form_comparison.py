@@ -7,16 +7,23 @@ from collections.abc import Sequence
 from typing import TypeGuard
 
 from quizgen.maths.number_systems import compile_expr, float64_system
+from quizgen.maths.tolerance import Tolerance
 from quizgen.maths.tree import Call, Expr, names_in
 
+APART = 2.0
+"""Two values count as different when more than this many tolerances lie between them."""
 NEAR = 1e-9
 """Relative distance at which two values count as one."""
+TINY = 1e-12
+"""Values below it count as this large."""
 _STRUCTURES = frozenset({"matrix", "row", "vector", "set", "union", "interval", "complex", "eq"})
 _POINTS = (0.731, 1.377, 2.219, 3.071, 0.263, -0.617, -1.849)
 """Where formulas are compared; each name takes its own turn of them."""
 
 
-def forms_agree(first: Expr, second: Expr, relation: str = "") -> bool:
+def forms_agree(
+    first: Expr, second: Expr, relation: str = "", rule: Tolerance | None = None
+) -> bool:
     """Whether two forms with numbers in place are the same one.
 
     Parameters
@@ -24,6 +31,8 @@ def forms_agree(first: Expr, second: Expr, relation: str = "") -> bool:
     first, second : Expr
     relation : str
         ``constant`` or ``factor`` where they may differ by one, ``scale`` of vectors.
+    rule : Tolerance, optional
+        How near numbers count as the same, if not all figures are asked.
     """
     if first == second:
         return True
@@ -39,9 +48,11 @@ def forms_agree(first: Expr, second: Expr, relation: str = "") -> bool:
             isinstance(second, Call)
             and second.op == first.op
             and len(first.args) == len(second.args)
-            and all(forms_agree(a, b) for a, b in zip(first.args, second.args, strict=True))
+            and all(
+                forms_agree(a, b, rule=rule) for a, b in zip(first.args, second.args, strict=True)
+            )
         )
-    return _formulas_agree(first, second, relation)
+    return _formulas_agree(first, second, relation, rule)
 
 
 def _is_call(expr: Expr, op: str) -> bool:
@@ -84,13 +95,23 @@ def _evaluate_components(vector: Expr) -> list[float]:
     return [math.nan if value is None else value for value in found]
 
 
-def _formulas_agree(first: Expr, second: Expr, relation: str) -> bool:
+def _numbers_agree(first: Expr, second: Expr, rule: Tolerance) -> bool:
+    """Return whether two numbers are nearer to each other than answers to both may be."""
+    a, b = (_evaluate_at(number, {}) for number in (first, second))
+    return a is not None and b is not None and abs(a - b) <= APART * rule.outer_width(a)
+
+
+def _formulas_agree(
+    first: Expr, second: Expr, relation: str, rule: Tolerance | None = None
+) -> bool:
     """Return whether two formulas are related at every point where both have a value.
 
     ``relation`` is ``"constant"`` or ``"factor"`` if they may differ by one, anything else if they
-    must be equal. False if there is no such point.
+    must be equal: numbers by the rule, if there is one. False if there is no such point.
     """
     names = sorted(names_in(first) | names_in(second))
+    if rule is not None and not names:
+        return _numbers_agree(first, second, rule)
     pairs = []
     for turn in range(len(_POINTS) if names else 1):
         env = {n: _POINTS[(turn + 2 * i) % len(_POINTS)] for i, n in enumerate(names)}
@@ -104,18 +125,17 @@ def _are_related(pairs: Sequence[tuple[float, float]], relation: str) -> bool:
     """Return whether pairs of values differ by one constant, by one factor, or not at all."""
     if relation == "constant":
         shift = pairs[0][0] - pairs[0][1]
-        return all(_is_near(a - b, shift, max(abs(a), abs(b))) for a, b in pairs)
+        return all(abs(a - b - shift) <= NEAR * max(abs(a), abs(b), TINY) for a, b in pairs)
     if relation in {"factor", "positive"}:
         a0, b0 = pairs[0]
-        return (relation == "factor" or a0 * b0 > 0) and all(
-            _is_near(a * b0, a0 * b, max(abs(a * b0), abs(a0 * b))) for a, b in pairs
-        )
-    return all(_is_near(a, b, max(abs(a), abs(b))) for a, b in pairs)
+        same_sign = relation == "factor" or a0 * b0 > 0
+        return same_sign and all(_is_near(a * b0, a0 * b) for a, b in pairs)
+    return all(_is_near(a, b) for a, b in pairs)
 
 
-def _is_near(a: float, b: float, size: float) -> bool:
-    """Return whether two floats agree, relative to the size of what they were computed from."""
-    return abs(a - b) <= NEAR * max(size, 1e-12)
+def _is_near(a: float, b: float) -> bool:
+    """Return whether two floats agree."""
+    return math.isclose(a, b, rel_tol=NEAR, abs_tol=NEAR * TINY)
 
 
 def _evaluate_at(expr: Expr, env: dict[str, float]) -> float | None:

@@ -13,7 +13,7 @@ from typing import Any
 import msgspec
 from flint import fmpq
 
-from quizgen.bank.form_comparison import forms_agree
+from quizgen.bank.form_comparison import APART, forms_agree
 from quizgen.bank.template import Template
 from quizgen.core.errors import BankError, MathError
 from quizgen.kinds.contract import asked_form, asked_quantities
@@ -27,8 +27,6 @@ from quizgen.maths.values import Values, map_numbers
 
 TIE_MARGIN = 0.02
 """A value closer than this (in units of the asked decimal) to a rounding tie is redrawn."""
-APART = 2.0
-"""Two values count as different when more than this many tolerances lie between them."""
 
 
 class PartChecker:
@@ -138,10 +136,10 @@ class PartChecker:
         key = self.chain.bind_form(self.chain.form_by_name[self.form].expr, values)
         seen = {"the key": key}
         relation = str(self.answer.get("up_to", ""))
+        rounding = parse_tolerance(self.answer)
+        rule = rounding if rounding.stated_rule else None
         for trap, form in self.wrong_forms(values).items():
-            twin = next(
-                (n for n, other in seen.items() if forms_agree(form, other, relation)), None
-            )
+            twin = next((n for n, o in seen.items() if forms_agree(form, o, relation, rule)), None)
             if twin is None:
                 seen[trap] = form
             elif not (lenient or trap in self.may_vanish):

@@ -27,7 +27,7 @@ from quizgen.core.errors import BankError
 from quizgen.core.imports import LOCK
 from quizgen.core.untrusted import read_bytes
 from quizgen.maths.chain import Chain
-from quizgen.maths.model import Model
+from quizgen.maths.model import Model, work_out
 
 _CHAINS = CompileCache("chains", Chain, "sympy")
 _PRIVATE = "_quizgen_solvers_"
@@ -47,7 +47,11 @@ class _AsWritten(SourceFileLoader):
     def get_code(self, fullname: str) -> CodeType:
         """Return the code of the source, whatever bytecode there is."""
         path = self.get_filename(fullname)
-        return self.source_to_code(self.get_data(path), path)
+        source = self.get_data(path)
+        if b"evaluate(" not in source:
+            return self.source_to_code(source, path)
+        tree = _WorkingOut().visit(ast.parse(source, path))
+        return self.source_to_code(ast.fix_missing_locations(tree), path)
 
 
 class _Finder(MetaPathFinder):
@@ -169,7 +173,6 @@ def _compile_solver(folder: Path, name: str) -> Chain:
     Raises ``BankError`` if the file cannot be run, or holds no model.
     """
     unload_modules(folder)
-    _refuse_unevaluated(folder / f"{name}.py")
     model = getattr(import_module_file(folder, name), "MODEL", None)
     file = folder / f"{name}.py"
     if not isinstance(model, Model):
@@ -179,34 +182,43 @@ def _compile_solver(folder: Path, name: str) -> Chain:
 
 
 _EVALUATING = frozenset({
-    "det", "diff", "dsolve", "eigenvals", "eigenvects", "integrate", "inv", "limit", "linsolve",
-    "nsolve", "series", "solve", "solveset", "summation",
+    "LUsolve", "Poly", "adjugate", "apart", "cancel", "charpoly", "collect", "det", "diff", "doit",
+    "dsolve", "eigenvals", "eigenvects", "expand", "factor", "gauss_jordan_solve", "hessian",
+    "integrate", "inv", "inverse_laplace_transform", "jacobian", "laplace_transform", "limit",
+    "linsolve", "nsolve", "nullspace", "rank", "real_roots", "residue", "roots", "rref", "rsolve",
+    "series", "simplify", "solve", "solveset", "summation", "together", "trigsimp",
 })  # fmt: skip
 """Functions and methods of SymPy that give nonsense or fail where nothing is evaluated."""
+_WORK_OUT = "_quizgen_work_out"
 
 
-def _refuse_unevaluated(file: Path) -> None:
-    """Refuse a computation of SymPy's inside ``with evaluate(False)``.
+class _WorkingOut(ast.NodeTransformer):
+    """Has SymPy evaluate its computations inside ``with evaluate(False)``.
 
-    There ``integrate`` fails with an AttributeError and ``diff`` gives ``a**3*(0*log(a) + 1*3/a)``;
-    neither names the cause.
-
-    Raises
-    ------
-    BankError
-        Naming the line.
+    There ``integrate`` fails with an AttributeError and ``diff`` gives ``a**3*(0*log(a) + 1*3/a)``,
+    which no author expects: what is meant is that formulas print as they are written.
     """
-    try:
-        tree = ast.parse(read_bytes(file, BankError))
-    except (SyntaxError, ValueError):
-        return  # the import says so, with its place
-    for block in filter(_stops_evaluation, ast.walk(tree)):
-        for node in ast.walk(block):
-            name = _called_name(node)
-            if name in _EVALUATING:
-                what = f"{name}(...) needs evaluation: compute this before `with evaluate(False)`"
-                line = getattr(node, "lineno", 0)
-                raise BankError(what, rule="QG133", file=file, line=line)
+
+    def visit_With(self, node: ast.With) -> ast.With:
+        """Rewrite the body of a block that stops evaluation."""
+        if not _stops_evaluation(node):
+            return self.generic_visit(node)  # type: ignore[return-value]
+        body = [_WrapCalls().visit(one) for one in node.body]
+        name = ast.alias(work_out.__name__, _WORK_OUT)
+        bring = ast.ImportFrom(work_out.__module__, [name], 0)
+        return ast.copy_location(ast.With(node.items, [bring, *body]), node)
+
+
+class _WrapCalls(ast.NodeTransformer):
+    """Puts each computation of SymPy's, arguments and all, into a call of ``work_out``."""
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        """Rewrite the outermost call of one of ``_EVALUATING``."""
+        if _called_name(node) not in _EVALUATING:
+            return self.generic_visit(node)
+        nothing = ast.arguments(posonlyargs=[], args=[], kwonlyargs=[], kw_defaults=[], defaults=[])
+        whole = ast.Call(ast.Name(_WORK_OUT, ast.Load()), [ast.Lambda(nothing, node)], [])
+        return ast.copy_location(whole, node)
 
 
 def _stops_evaluation(node: ast.AST) -> bool:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import count, takewhile
 
@@ -28,7 +29,7 @@ from quizgen.bank.sampler import (
     solve_candidate,
 )
 from quizgen.bank.template import Template
-from quizgen.core.errors import BankError, SamplingError
+from quizgen.core.errors import BankError, MathError, SamplingError
 from quizgen.core.positions import TEXT, Place
 from quizgen.maths.canonical import CanonicalForm
 from quizgen.maths.chain import ChainStep
@@ -228,12 +229,17 @@ class Variant:
         return self._answer_components(index, self.values)
 
     def misconception_answers(self, index: int) -> dict[str, tuple[Value, ...]]:
-        """Return the answer of each usable misconception of a part, as ``answer_of_part``."""
-        chain = self.template.chain
-        return {
-            trap: self._answer_components(index, chain.solve_with_misconception(trap, self.values))
-            for trap in self.traps[index]
-        }
+        """Return the answer of each usable misconception of a part, as ``answer_of_part``.
+
+        Floats let a wrong way pass that has no certain value, such as an arccosine at its edge: it
+        is left out.
+        """
+        found = {}
+        for trap in self.traps[index]:
+            with suppress(MathError):
+                wrong = self.template.chain.solve_with_misconception(trap, self.values)
+                found[trap] = self._answer_components(index, wrong)
+        return found
 
     def exact_texts(self, index: int) -> tuple[str, ...]:
         """Return each irrational component of a part's answer as a formula; empty for none.
@@ -258,7 +264,7 @@ class Variant:
         """Return each usable mistake of a part and the form that it gives."""
         with working_precision():
             found = self.sampler.parts[index].wrong_forms(self.values)
-        return {trap: found[trap] for trap in self.traps[index]}
+        return {trap: found[trap] for trap in self.traps[index] if trap in found}
 
     def _answer_components(self, index: int, values: Values) -> tuple[Value, ...]:
         """Return the components of a part's answer, each in the unit it is asked in."""

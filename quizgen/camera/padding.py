@@ -8,7 +8,6 @@ from msgspec.structs import replace
 
 from quizgen.camera.effect import Effect
 from quizgen.camera.raster.rasterizer import Layer
-from quizgen.camera.setup.scene import Image
 from quizgen.camera.setup.view import View
 
 WIDEST = 4
@@ -55,20 +54,3 @@ def crop_layer(layer: Layer, view: View) -> Layer:
     motion = replace(layer.motion, pivot=(x - across, y - down))
     seen = None if cover is None else cover[part]
     return replace(layer, colour=layer.colour[part], cover=seen, motion=motion)
-
-
-def crop_in_place(picture: Image, view: View) -> Image:
-    """Return the middle of a picture, moved row by row within its own memory.
-
-    Nobody else may need the picture. New memory for a large one takes longer than copying it.
-    """
-    down, across = (picture.shape[0] - view.height) // 2, (picture.shape[1] - view.width) // 2
-    if not down and not across:
-        return picture
-    if not picture.flags.c_contiguous:
-        return picture[down : down + view.height, across : across + view.width]
-    length, flat = view.width * picture.shape[2], picture.reshape(-1)
-    for row in range(view.height):  # what is written lies before all that is still to be read
-        line = picture[down + row, across : across + view.width]
-        flat[row * length : (row + 1) * length] = line.reshape(-1)
-    return flat[: view.height * length].reshape(view.height, view.width, -1)

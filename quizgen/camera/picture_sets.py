@@ -25,8 +25,7 @@ from quizgen.camera.pixels.hsv import edit_hsv
 from quizgen.camera.pixels.kernels import BlurKernel, disc_kernel
 from quizgen.camera.pixels.noise import effect_random
 from quizgen.camera.pixels.tiles import Tile, apply_tilewise
-from quizgen.camera.raster.detail_regions import grow_box
-from quizgen.camera.raster.rasterizer import PixelBox, blend_into, bounding_box, rasterize
+from quizgen.camera.raster.rasterizer import PixelBox, blend_into, bounding_box, grow_box, rasterize
 from quizgen.camera.setup.scene import Image, Scene
 from quizgen.camera.setup.view import View
 

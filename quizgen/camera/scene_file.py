@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -44,6 +43,7 @@ from quizgen.camera.setup.value_parsers import (
     quantity_parser,
 )
 from quizgen.camera.setup.view import View
+from quizgen.core.positions import Place, find_span
 from quizgen.core.untrusted import LARGEST_PICTURE, parse_toml, read_bytes, read_text
 from quizgen.numerics.gamma import srgb_decode
 
@@ -141,37 +141,19 @@ def _table_parsers(table: str) -> TableParsers:
     return {"sensor_width": quantity_parser("m"), "exif": parse_bool, **named}
 
 
-_HEADER = re.compile(r"\s*\[\[?\s*([\w-]+)\s*\]\]?")
-_KEY = re.compile(r"\s*([\w-]+)\s*=")
-
-
-def _find_key_lines(text: str) -> dict[tuple[str, int, str], int]:
-    """Return the line (from 1) of every (table, which of its kind, key)."""
-    found: dict[tuple[str, int, str], int] = {}
-    table, counts = "", dict[str, int]()
-    for line, content in enumerate(text.splitlines(), start=1):
-        if header := _HEADER.match(content):
-            table = header[1]
-            counts[table] = counts.get(table, -1) + 1
-            found.setdefault((table, counts[table], ""), line)
-        elif key := _KEY.match(content):
-            found.setdefault((table, counts.get(table, 0), key[1]), line)
-    return found
-
-
 class _SceneFile:
-    """A scene file: its tables, and the line where each key stands."""
+    """A scene file and its tables."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
         text = read_text(path, SceneError)
         self.tables: dict[str, Any] = parse_toml(text, path, SceneError)
-        self.lines = _find_key_lines(text)
 
     def fail(self, table: str, which: int, key: str, message: str) -> SceneError:
         """Return an error that names the file and the line of a key."""
-        line = self.lines.get((table, which, key)) or self.lines.get((table, which, ""), 1)
-        return SceneError(f"{self.path}:{line}: {message}")
+        place: Place = (table, which) if table == "thing" else (table,)
+        span = find_span(self.path, (*place, key) if key else place)
+        return SceneError(f"{self.path}:{span.line if span else 1}: {message}")
 
     def read(self, table: str, which: int, values: Mapping[str, object]) -> dict[str, Any]:
         """Return the parsed values of one table; raise `SceneError` at the first wrong one."""
@@ -190,9 +172,8 @@ class _SceneFile:
         """Raise `SceneError` for unknown tables, those of the wrong kind, and too many things."""
         for name in self.tables:
             if name not in TABLES:
-                line = self.lines.get((name, 0, "")) or self.lines.get(("", 0, name), 1)
                 hint = suggest_setting(name, TABLES)
-                raise SceneError(f"{self.path}:{line}: unknown table {name!r}{hint}")
+                raise self.fail(name, 0, "", f"unknown table {name!r}{hint}")
         for name in ("scene", "question", "camera"):
             if not isinstance(self.tables.get(name, {}), dict):
                 raise self.fail(name, 0, "", f"expected one table [{name}]")

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from quizgen.camera.effect import Effect, LayerByLayer, PointByPoint
-from quizgen.camera.padding import crop_in_place, crop_layer
+from quizgen.camera.padding import crop_layer
 from quizgen.camera.pixels.codes import GREY_LEVELS, to_8bit
 from quizgen.camera.pixels.filters import warm_up
 from quizgen.camera.pixels.tiles import TILE_VALUES, apply_tilewise, split_range
@@ -164,8 +164,6 @@ class _Run:
 
     def _composite_layer(self, layer: Layer, behind: Image | None, view: View) -> Image:
         """Return the picture with a layer over it, in place where nobody else needs the memory."""
-        if behind is None and self._is_writable(layer.colour):
-            return crop_in_place(layer.colour, view)
         layer = crop_layer(layer, view)
         if behind is None:
             return layer.colour

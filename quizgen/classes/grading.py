@@ -104,6 +104,24 @@ class GradedClassPart(msgspec.Struct, frozen=True, omit_defaults=True):
         return self.marks is None
 
 
+class JudgedPart(msgspec.Struct, frozen=True):
+    """What the machine says of a part before anybody has decided anything.
+
+    ``group`` names the answers that are equal to it, ``words`` says that it is a sentence.
+    """
+
+    plain: GradedClassPart
+    group: str
+    words: bool = False
+
+
+class JudgedSubmission(msgspec.Struct, frozen=True):
+    """What the machine says of all that a student handed in, in the language it was read in."""
+
+    lang: str
+    parts: tuple[JudgedPart, ...]
+
+
 class StudentMarks(msgspec.Struct, frozen=True, omit_defaults=True):
     """All marks of one student: a line of the grading history."""
 
@@ -178,18 +196,38 @@ def grade_submission(
     KeyFileError
         If the key is wrong.
     """
+    return apply_rulings(judge_submission(key, sheet, book), sheet, book, scale or GradeScale())
+
+
+def judge_submission(key: AnswerKey, sheet: Submission, book: RulingBook) -> JudgedSubmission:
+    """Return what the machine says of a submission; of all rulings it knows tolerances alone.
+
+    Raises
+    ------
+    ClassError
+        If a tolerance was ruled where there is none.
+    KeyFileError
+        If the key is wrong.
+    """
     lang = fallback_language(sheet.lang or key.langs[0])
     options = GradingOptions(lang, sheet.decimal)
-    parts = [
+    parts = tuple(
         one
         for question in key.questions
-        for one in _iter_graded_parts(question, sheet, book, options)
-    ]
-    counted = _drop_items(parts, book, sheet.student, scale or GradeScale())
+        for one in _iter_judged_parts(question, sheet, book, options)
+    )
+    return JudgedSubmission(lang, parts)
+
+
+def apply_rulings(
+    judged: JudgedSubmission, sheet: Submission, book: RulingBook, scale: GradeScale
+) -> StudentMarks:
+    """Return the marks of a submission that was judged, after what people decided."""
+    parts = [_apply_decisions(one, book, sheet.student) for one in judged.parts]
     return StudentMarks(
         sheet.student,
-        tuple(counted),
-        lang,
+        tuple(_drop_items(parts, book, sheet.student, scale)),
+        judged.lang,
         sheet.decimal,
         sheet.file,
         sheet.minutes,
@@ -233,24 +271,20 @@ def _drop_item(part: GradedClassPart, ruling: Ruling, kept: set[str]) -> GradedC
     return _apply_ruling(ruling, part, marks=0.0, points=0.0, status=DROPPED, group="")
 
 
-def _iter_graded_parts(
+def _iter_judged_parts(
     question: KeyQuestion, sheet: Submission, book: RulingBook, options: GradingOptions
-) -> Iterator[GradedClassPart]:
-    """Yield each part of a question graded, with its rulings applied."""
+) -> Iterator[JudgedPart]:
+    """Yield each part of a question as the machine judges it."""
     marker = QuestionGrader(question, options, proven=True)
     for part in question.parts:
         item, typed = item_name(question, part), sheet.answers.get(part.id, "")
-        rulings = book.rulings_for(item, sheet.student)
         if not typed.strip():
             blank = GradedClassPart(part.id, item, typed, "blank", float(part.points_exact()), 0.0)
-            on_paper = blank_group(item, sheet.student) if rulings else ""
-            yield _apply_rulings(
-                blank,
-                [one for one in rulings if one.what in WHOLE or one.group == on_paper],
-            )
+            yield JudgedPart(blank, blank_group(item, sheet.student))
             continue
+        rulings = book.rulings_for(item, sheet.student)
         found = marker.judge_part(_with_tolerance(part, item, rulings), typed)
-        yield _apply_decisions(found, part, item, rulings, sheet.student)
+        yield _describe_judged_part(found, part, item, sheet.student)
 
 
 def _with_tolerance(part: KeyPart, item: str, rulings: Iterable[Ruling]) -> KeyPart:
@@ -275,19 +309,14 @@ def stands_alone(kind: str, typed: str) -> bool:
     return kind == "sketch" or is_on_paper(typed)
 
 
-def _apply_decisions(
-    found: PartResult, part: KeyPart, item: str, rulings: list[Ruling], student: str
-) -> GradedClassPart:
-    """Return the mark of an answer after the rulings about it."""
+def _describe_judged_part(found: PartResult, part: KeyPart, item: str, student: str) -> JudgedPart:
+    """Return a part that was filled in as the machine judges it."""
     unseen = not found.marks and is_on_paper(found.typed)  # to a gap the words are a wrong term
     asked = unseen or found.status in TO_DECIDE
     kind = part.spec["kind"]
     words = kind == "rubric"
-    group = ""
-    if asked or rulings:
-        shown = part.parse_spec(proven=True).show()
-        whose = f"\0{student}" if stands_alone(kind, found.typed) else ""
-        group = answer_group(item, shown + whose, found.typed, words=words)
+    shown = part.parse_spec(proven=True).show()
+    whose = f"\0{student}" if stands_alone(kind, found.typed) else ""
     plain = GradedClassPart(
         found.id,
         item,
@@ -296,12 +325,21 @@ def _apply_decisions(
         float(found.points),
         None if asked else float(found.marks or 0),
         found.verdict.note,
-        group=group if asked else "",
         chosen=_list_ticked_options(part, found),
     )
-    return _apply_rulings(
-        plain, [one for one in rulings if _is_ruling_about(one, found, group, words=words)]
-    )
+    return JudgedPart(plain, answer_group(item, shown + whose, found.typed, words=words), words)
+
+
+def _apply_decisions(judged: JudgedPart, book: RulingBook, student: str) -> GradedClassPart:
+    """Return the mark of a part after the rulings about it."""
+    plain = judged.plain
+    rulings = book.rulings_for(plain.item, student)
+    if plain.status == "blank":
+        about = [one for one in rulings if one.what in WHOLE or one.group == judged.group]
+        return _apply_rulings(plain, about)
+    if plain.needs_decision:
+        plain = msgspec.structs.replace(plain, group=judged.group)
+    return _apply_rulings(plain, [one for one in rulings if _is_ruling_about(one, judged)])
 
 
 def _apply_rulings(plain: GradedClassPart, rulings: list[Ruling]) -> GradedClassPart:
@@ -340,18 +378,16 @@ def _apply_ruling(
     return msgspec.structs.replace(plain, **known)
 
 
-def _is_ruling_about(ruling: Ruling, found: PartResult, group: str, *, words: bool) -> bool:
-    """Return whether a ruling concerns this answer.
-
-    ``words``: the answer is a sentence, in which capitals do not matter.
-    """
+def _is_ruling_about(ruling: Ruling, judged: JudgedPart) -> bool:
+    """Return whether a ruling concerns an answer; in a sentence capitals do not matter."""
     if ruling.what in {*WHOLE, TOLERANCE}:
         return True
     if ruling.group:
-        return ruling.group == group
+        return ruling.group == judged.group
     if ruling.answer.startswith(TRAP):
-        return found.verdict.note == ruling.answer
-    return fold_answer(ruling.answer, words=words) == fold_answer(found.typed, words=words)
+        return judged.plain.note == ruling.answer
+    typed = fold_answer(judged.plain.typed, words=judged.words)
+    return fold_answer(ruling.answer, words=judged.words) == typed
 
 
 def _list_ticked_options(part: KeyPart, found: PartResult) -> tuple[str, ...]:

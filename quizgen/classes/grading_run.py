@@ -10,11 +10,20 @@ from itertools import islice
 from pathlib import Path
 from typing import NamedTuple
 
+import msgspec
+
 from quizgen.classes.class_folder import ClassFolder
 from quizgen.classes.grade_scale import GradeScale, read_grade_scale
-from quizgen.classes.grading import StudentMarks, Submission, grade_submission
+from quizgen.classes.grading import (
+    JudgedSubmission,
+    StudentMarks,
+    Submission,
+    apply_rulings,
+    judge_submission,
+)
 from quizgen.classes.grading_history import GradingHistory, GradingOutcome, TotalChange
-from quizgen.classes.key_index import KeyIndex, read_key_at
+from quizgen.classes.judged_answers import JudgedAnswers, compute_judging_digest
+from quizgen.classes.key_index import KeyIndex, read_key_at, read_line_at
 from quizgen.classes.lock import lock_folder
 from quizgen.classes.manual_grading import (
     decision_cases,
@@ -26,6 +35,8 @@ from quizgen.classes.manual_grading import (
 from quizgen.classes.rulings import (
     ACCEPT,
     FILE,
+    RESTORE,
+    TOLERANCE,
     TRAP,
     USE,
     Ruling,
@@ -36,6 +47,7 @@ from quizgen.classes.rulings import (
 )
 from quizgen.classes.statuses import find_blank_students
 from quizgen.classes.submissions import RivalAnswers, Submissions, write_problems, write_rivals
+from quizgen.core.cache import compute_digest
 from quizgen.core.errors import ClassError, KeyFileError
 from quizgen.core.executor import map_ordered
 from quizgen.core.untrusted import error_context
@@ -43,6 +55,25 @@ from quizgen.locale import FIRST
 
 CHUNK = 50
 """Students of a job."""
+PASSING = frozenset({"unchecked", "program-time"})
+"""What is said of a program where the machine had no time for it: to be tried again."""
+
+
+class SubmissionToGrade(NamedTuple):
+    """A submission with where its key begins, its name among those judged, and what is known."""
+
+    sheet: Submission
+    at: int
+    name: str
+    judged: JudgedSubmission | None
+
+
+class GradedSubmission(NamedTuple):
+    """Marks of a submission, and under its name what the machine says if it was judged anew."""
+
+    marks: StudentMarks
+    name: str
+    judged: JudgedSubmission | None
 
 
 @dataclass(frozen=True)
@@ -54,14 +85,13 @@ class GradingJob:
     keys : pathlib.Path
         The file of the keys.
     rulings : tuple of Ruling
-    sheets : tuple of (Submission, int)
-        Each with where its key begins.
+    sheets : tuple of SubmissionToGrade
     scale : GradeScale
     """
 
     keys: Path
     rulings: tuple[Ruling, ...]
-    sheets: tuple[tuple[Submission, int], ...]
+    sheets: tuple[SubmissionToGrade, ...]
     scale: GradeScale
 
 
@@ -139,14 +169,16 @@ def _grade_locked_folder(
         find_files_in_use(rulings),
         find_blank_students(folder, keys),
     )
-    jobs = _iter_jobs(collected.collect(), keys, rulings, scale)
+    known = JudgedAnswers(folder.path, folder.settings.secret)
+    jobs = _iter_jobs(collected.collect(), keys, rulings, scale, known)
     chunks = map_ordered(executor, run_grading_job, jobs, ahead)
     counts: dict[str, tuple[int, int]] = {}
-    outcome = history.write(_count_filled_parts(chunks, counts), keep=keep)
+    outcome = history.write(_iter_marks(chunks, counts, known), keep=keep)
     if filled and keep:  # now: a run that ends before this one does reads the same queue again
         note_rulings(folder.path, filled)
     groups = group_cases(decision_cases(undecided_answers(history.current()), keys.key, FIRST))
     if keep:
+        known.write()
         write_queue(folder.path, groups, kept)
         write_rivals(folder.path, collected.rivals)
         write_problems(folder.path, collected.problems)
@@ -161,14 +193,22 @@ def _grade_locked_folder(
     )
 
 
-def _count_filled_parts(
-    chunks: Iterable[Iterable[StudentMarks]], counts: dict[str, tuple[int, int]]
+def _iter_marks(
+    chunks: Iterable[Iterable[GradedSubmission]],
+    counts: dict[str, tuple[int, int]],
+    known: JudgedAnswers,
 ) -> Iterator[StudentMarks]:
-    """Yield the marks of all chunks, noting how many parts of each student were filled in."""
+    """Yield the marks of all chunks, noting how many parts of each student were filled in.
+
+    What was judged anew is kept for the next run.
+    """
     for chunk in chunks:
         for one in chunk:
-            counts[one.student] = one.filled_count, len(one.parts)
-            yield one
+            marks = one.marks
+            counts[marks.student] = marks.filled_count, len(marks.parts)
+            if one.judged and all(part.plain.note not in PASSING for part in one.judged.parts):
+                known.keep(one.name, one.judged)
+            yield marks
 
 
 def _iter_grade_changes(
@@ -214,19 +254,39 @@ def check_rulings(rulings: Iterable[Ruling], keys: KeyIndex) -> None:
 
 
 def _iter_jobs(
-    sheets: Iterable[Submission], keys: KeyIndex, rulings: tuple[Ruling, ...], scale: GradeScale
+    sheets: Iterable[Submission],
+    keys: KeyIndex,
+    rulings: tuple[Ruling, ...],
+    scale: GradeScale,
+    known: JudgedAnswers,
 ) -> Iterator[GradingJob]:
-    """Yield jobs of ``CHUNK`` submissions, each with the byte offset of its key."""
-    found = iter(sheets)
-    while chunk := tuple((sheet, keys.places[sheet.student][1]) for sheet in islice(found, CHUNK)):
+    """Yield jobs of ``CHUNK`` submissions, each with what is known of it."""
+    read = msgspec.json.encode([one for one in rulings if one.what in {TOLERANCE, RESTORE}])
+    found = (_look_up(sheet, keys, read, known) for sheet in sheets)
+    while chunk := tuple(islice(found, CHUNK)):
         yield GradingJob(keys.path, rulings, chunk, scale)
 
 
-def run_grading_job(job: GradingJob) -> list[StudentMarks]:
+def _look_up(
+    sheet: Submission, keys: KeyIndex, read: bytes, known: JudgedAnswers
+) -> SubmissionToGrade:
+    """Return a submission with what an earlier run said of it, if all is as it was then."""
+    at = keys.places[sheet.student][1]
+    said = msgspec.json.encode((sheet.student, dict(sheet.answers), sheet.lang, sheet.decimal))
+    line = read_line_at(keys.path, at)
+    name = compute_digest(compute_judging_digest(), line, said, read)
+    return SubmissionToGrade(sheet, at, name, known.get(name, JudgedSubmission))
+
+
+def run_grading_job(job: GradingJob) -> list[GradedSubmission]:
     """Return the marks of the submissions of a job."""
     book = RulingBook(job.rulings)
     with error_context(job.keys, KeyFileError):
-        return [
-            grade_submission(read_key_at(job.keys, at), sheet, book, job.scale)
-            for sheet, at in job.sheets
-        ]
+        return [_grade_one(one, job, book) for one in job.sheets]
+
+
+def _grade_one(one: SubmissionToGrade, job: GradingJob, book: RulingBook) -> GradedSubmission:
+    """Return the marks of one submission, which is judged only if that is not known."""
+    judged = one.judged or judge_submission(read_key_at(job.keys, one.at), one.sheet, book)
+    marks = apply_rulings(judged, one.sheet, book, job.scale)
+    return GradedSubmission(marks, one.name, None if one.judged else judged)

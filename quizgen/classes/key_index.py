@@ -122,7 +122,7 @@ class KeyIndex:
     def outline(self, student: str) -> PaperOutline:
         """Return what a student's paper asks, without decoding all of its key."""
         try:
-            line = _read_line_at(self.path, self._find_line(student))
+            line = read_line_at(self.path, self._find_line(student))
             found = _SHORT(original_key_bytes(line, self.path))
         except msgspec.DecodeError as error:
             raise ClassError(f"{self.path}: {student}: {error}") from None
@@ -254,12 +254,12 @@ def read_key_at(path: Path, at: int) -> AnswerKey:
         If it is none, or not the one that was made.
     """
     try:
-        return _KEY(original_key_bytes(_read_line_at(path, at), path))
+        return _KEY(original_key_bytes(read_line_at(path, at), path))
     except msgspec.DecodeError as error:
         raise ClassError(f"{path}: byte {at}: {error}") from None
 
 
-def _read_line_at(path: Path, at: int) -> bytes:
+def read_line_at(path: Path, at: int) -> bytes:
     """Return the line that begins at byte ``at``."""
     with path.open("rb") as stream:
         stream.seek(at, os.SEEK_SET)

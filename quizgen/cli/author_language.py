@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import sys
+import tomllib
 from collections.abc import Sequence
+from contextlib import suppress
 from itertools import chain
 from pathlib import Path
 
@@ -12,6 +14,7 @@ from quizgen.locale import FIRST
 
 LANGUAGE = "--lang"
 TEMPLATES = "templates"
+CLASS = "class.toml"
 
 
 def explain_error(error: QuizgenError, arguments: Sequence[str] | None = None) -> str:
@@ -23,25 +26,40 @@ def explain_error(error: QuizgenError, arguments: Sequence[str] | None = None) -
     arguments : sequence of str, optional
         Of the command, which may name a language; those of the process if they are not given.
     """
-    from quizgen.locale.explanations import explain_diagnostic, list_explained_languages
+    from quizgen.locale.explanations import (
+        explain_diagnostic,
+        list_explained_languages,
+        translate_error,
+    )
 
     given = sys.argv[1:] if arguments is None else arguments
-    lang = _find_option(given) or _find_bank_language(error.file)
-    if not error.rule or error.file is None or lang not in list_explained_languages()[1:]:
+    lang = _find_option(given, LANGUAGE) or _find_bank_language(error.file) or _find_lang(given)
+    if lang not in list_explained_languages()[1:]:
         return str(error)
+    if not error.rule or error.file is None:
+        return translate_error(str(error), lang)
     said = explain_diagnostic(error.diagnostic(error.file), lang)
     hint = f"; {said.hint}" if said.hint else ""
     return f"{str(error).removesuffix(error.message)}{said.message}{hint}"
 
 
-def _find_option(arguments: Sequence[str]) -> str:
-    """Return the language that a command line names; empty if it names none."""
+def _find_option(arguments: Sequence[str], option: str) -> str:
+    """Return what a command line gives for an option; empty if it does not give it."""
     for place, argument in enumerate(arguments):
-        if argument == LANGUAGE:
+        if argument == option:
             return "".join(arguments[place + 1 : place + 2])
-        if argument.startswith(f"{LANGUAGE}="):
-            return argument.removeprefix(f"{LANGUAGE}=")
+        if argument.startswith(f"{option}="):
+            return argument.removeprefix(f"{option}=")
     return ""
+
+
+def _find_lang(arguments: Sequence[str]) -> str:
+    """Return the language of the class or of the bank that a command line names; else empty."""
+    for file in (Path(argument, CLASS) for argument in arguments):
+        with suppress(OSError, ValueError):
+            return str(tomllib.loads(file.read_text("utf-8")).get("lang", ""))
+    bank = _find_option(arguments, "--bank")
+    return _find_bank_language(Path(bank, TEMPLATES, "bank.toml")) if bank else ""
 
 
 def _find_bank_language(file: Path | None) -> str:

@@ -25,7 +25,12 @@ from quizgen.core.errors import QuizgenError
 from quizgen.core.executor import map_ordered, open_executor
 from quizgen.core.untrusted import escape_control_characters
 from quizgen.locale import FIRST
-from quizgen.locale.explanations import explain_diagnostic, list_explained_languages
+from quizgen.locale.explanations import (
+    choose_explained_language,
+    explain_diagnostic,
+    explain_message,
+    list_explained_languages,
+)
 
 if TYPE_CHECKING:
     from quizgen.bank.bank import Bank
@@ -58,7 +63,7 @@ class LintOptions(BankOptions):
     limit: int | None
     debug: bool
     json: bool
-    lang: str
+    lang: str | None
     jobs: int | None
 
 
@@ -84,8 +89,8 @@ class LintOptions(BankOptions):
     f"[default: {ENOUGH:g}, and {ENOUGH_A_DRAW:g} for each draw]",
 )
 @click.option("--json", is_flag=True, help="Print problems as JSON, one a line, for editors.")
-@click.option("--lang", type=click.Choice(list_explained_languages()), default=FIRST,
-              help="Say what is wrong, and what helps, in this language.")  # fmt: skip
+@click.option("--lang", type=click.Choice(list_explained_languages()),
+              help="Language of what is said. [default: that of the bank]")  # fmt: skip
 @click.option("--debug", is_flag=True, help="Show where in Python an error came from.")
 @jobs_option
 @bank_options
@@ -120,14 +125,15 @@ def _lint_bank(bank: Bank, names: tuple[str, ...], options: LintOptions) -> int:
         return _print_teaching_findings(bank, names, options)
     rows, broken = _examine_templates(bank, names, options)
     broken = list({str(problem): problem for problem in broken}.values())
+    lang = options["lang"] or _choose_language(bank)
     if options["json"]:
         for problem in broken:
-            said = explain_diagnostic(problem, options["lang"])
+            said = explain_diagnostic(problem, lang)
             click.echo(json.dumps(said.as_json(), ensure_ascii=False))
     else:
         print_table(HEAD, rows)
         for problem in broken:
-            said = explain_diagnostic(problem, options["lang"])
+            said = explain_diagnostic(problem, lang)
             click.echo(shorten_message(str(said)), err=True)
         _advise_on_words(bank)
     return int(bool(broken))
@@ -195,9 +201,19 @@ def _check_bank(bank: Bank, limit: float, *, whole: bool) -> list[Diagnostic]:
     return found
 
 
+def _choose_language(bank: Bank) -> str:
+    """Return the language that the authors of a bank are told in."""
+    try:
+        return choose_explained_language(bank.languages)
+    except QuizgenError:  # it is told of by itself
+        return FIRST
+
+
 def lint_while_writing(bank: Bank, name: str) -> list[str]:
     """Return the messages on a template, over few draws: quick enough while writing."""
-    return [str(problem) for problem in _examine_template(bank, name, FEW, ENOUGH)[1]]
+    lang = _choose_language(bank)
+    found = _examine_template(bank, name, FEW, ENOUGH)[1]
+    return [str(explain_diagnostic(problem, lang)) for problem in found]
 
 
 def _print_teaching_findings(bank: Bank, names: tuple[str, ...], options: LintOptions) -> int:
@@ -207,9 +223,9 @@ def _print_teaching_findings(bank: Bank, names: tuple[str, ...], options: LintOp
         ProgressLine("lint", len(names)) as progress,
         open_executor(_count_processes(options, names)) as (executor, ahead),
     ):
-        findings = partial(
-            _build_teaching_rows, bank, options["seeds"], _compute_time_limit(options)
-        )
+        lang = options["lang"] or _choose_language(bank)
+        limit = _compute_time_limit(options)
+        findings = partial(_build_teaching_rows, bank, options["seeds"], limit, lang)
         for found in map_ordered(executor, findings, progress.over(names), ahead):
             rows += found
     if rows:
@@ -219,7 +235,9 @@ def _print_teaching_findings(bank: Bank, names: tuple[str, ...], options: LintOp
     return int(bool(errors))
 
 
-def _build_teaching_rows(bank: Bank, seeds: int, limit: float, name: str) -> list[tuple[str, ...]]:
+def _build_teaching_rows(
+    bank: Bank, seeds: int, limit: float, lang: str, name: str
+) -> list[tuple[str, ...]]:
     """Return the rows of a template's findings on quality."""
     from quizgen.lint.cpu_limit import CpuLimitExceeded, cpu_limit
     from quizgen.lint.item_quality import review_template
@@ -229,8 +247,12 @@ def _build_teaching_rows(bank: Bank, seeds: int, limit: float, name: str) -> lis
             found = review_template(bank.template(name), seeds)
     except (QuizgenError, CpuLimitExceeded) as error:
         stopped = _diagnose_crash(bank, bank.template_paths[name] / "template.toml", error)
-        return [(name, "", "error", stopped.code, f"{stopped.file}: {stopped.message}")]
-    return [(one.template, one.label, one.level, one.code, one.what) for one in found]
+        said = explain_message(stopped.code, stopped.message, lang)
+        return [(name, "", "error", stopped.code, f"{stopped.file}: {said}")]
+    return [
+        (one.template, one.label, one.level, one.code, explain_message(one.code, one.what, lang))
+        for one in found
+    ]
 
 
 def _print_leaks(bank: Bank, count: int, jobs: int | None) -> int:

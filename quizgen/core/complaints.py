@@ -55,7 +55,7 @@ def complaint_of(
     found = _PLACE.search(text)
     place = _parse_msgspec_path(found[1] if found else "", kind, table)
     rule, what, key = _explain_type_error(
-        text[: found.start()] if found else text, _resolve_type_at(kind, place)
+        text[: found.start()] if found else text, _find_type_at_place(kind, place)
     )
     said = written_place((*before, *place))
     whole = (*before, *place, *([key] if key else []))
@@ -79,7 +79,7 @@ def _parse_msgspec_path(path: str, kind: object, table: object) -> Place:
     for number, dots, name in _STEP.findall(path):
         step: str | int | None = int(number) if number else name or None
         if dots:
-            inside = _find_type_at_step(_resolve_type_at(kind, tuple(place)), "...")
+            inside = _find_type_at_step(_find_type_at_place(kind, tuple(place)), "...")
             step = next(
                 (key for key, value in _iter_items(table) if not _is_convertible(value, inside)),
                 None,
@@ -115,7 +115,7 @@ def _explain_type_error(text: str, kind: object) -> tuple[str, str, str]:
         expected = " or ".join(filter(None, wanted))
         return "QG106", f"{got} stands there, {expected} is expected", ""
     if match := _UNKNOWN.match(text):
-        known = _list_allowed_keys(kind)
+        known = _list_allowed_keys(_choose_container(kind))
         return "QG104", f"unknown key {match[1]!r}{_suggest_name(match[1], known)}", match[1]
     if match := _MISSING.match(text):
         return "QG105", f"the key {match[1]!r} is missing", ""
@@ -149,11 +149,11 @@ def _list_allowed_values(kind: object) -> tuple[Any, ...]:
     return tuple(value for value in inside if isinstance(value, str))
 
 
-def _resolve_type_at(kind: object, place: Place) -> object:
+def _find_type_at_place(kind: object, place: Place) -> object:
     """Return the type that a Struct has at a place, such as its first part's answer."""
     for step in place:
         kind = _find_type_at_step(kind, step)
-    return _choose_container(kind)
+    return kind
 
 
 def _find_type_at_step(kind: object, step: str | int) -> object:

@@ -38,7 +38,8 @@ if hasattr(os, "register_at_fork"):
 
 _KIND = "figures"
 _PACKAGE = Path(__file__).parent.parent
-_CODE = ("figures", "camera", "arrays")  # of quizgen, that decides what is drawn
+_CODE = ("figures", "camera", "numerics")
+"""Folders of quizgen that decide what is drawn."""
 
 Items = tuple[tuple[str, Any], ...]
 Draw = Callable[[Any], object]

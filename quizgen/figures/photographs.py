@@ -10,9 +10,6 @@ from numpy.typing import NDArray
 Box = tuple[float, float, float, float]
 """Left, low, width and height in points of the figure."""
 
-CAPTION = 14.0
-"""Room for a caption above a photograph, in points."""
-
 
 _TALLEST = 4
 """A bar that is so many times as tall as the second one is cut, with a mark of breaking."""
@@ -58,7 +55,7 @@ def place_photo(
     codes : ndarray of uint8, shape (H, W) or (H, W, 3)
         Grey levels or colours; with a palette, shape (H, W), indices of its colours.
     box : tuple of float
-        Left, low, width and height in points; a caption takes ``CAPTION`` above.
+        Left, low, width and height in points; a caption takes 14 above.
     palette : sequence of (red, green, blue), optional
         Up to 256 colours, 0 to 255.
     number : int

@@ -108,9 +108,9 @@ def write_svg(drawing: Drawing, alt: str, lang: str) -> bytes:
 
 
 @lru_cache(64)
-def house_font(size: float, family: str = "STIXGeneral") -> FontProperties:
+def house_font(size: float) -> FontProperties:
     """Return the font of labels in a size (points); it is shared, so nobody may change it."""
-    return FontProperties(family=family, size=size)
+    return FontProperties(family="STIXGeneral", size=size)
 
 
 def _format_step(dx: int, dy: int) -> str:

@@ -17,10 +17,13 @@ from quizgen.grading.reading.answer_reader import (
     drop_bullets,
     drop_counting,
     drop_markup,
+    drop_transposed,
+    find_conclusion,
     has_second_meaning,
     is_cut_short,
     is_denied,
     is_range_of_shares,
+    join_fraction,
     list_plainer_texts,
     list_readings,
     prove_groups,
@@ -95,6 +98,11 @@ def _judge_as_written(spec: AnySpec, typed: str, options: GradingOptions) -> Ver
     doubtful = has_second_meaning if verdict.verdict == WRONG else is_range_of_shares
     if verdict.is_graded and form in MEASURED and doubtful(typed):
         return ambiguous("bullet-or-range", verdict.read_as)
+    concluded = (
+        find_conclusion(typed) if verdict.note == "sides-differ" and form in MEASURED else ""
+    )
+    if concluded:
+        verdict = _judge_text(spec, concluded, options)
     decided = verdict.is_graded or verdict.note in DECIDED or not typed.strip()
     if decided and verdict.note != "unknown-term":
         return verdict
@@ -133,7 +141,9 @@ def _ask_what_is_meant(form: AnswerForm, typed: str, verdict: Verdict) -> Verdic
 def _prepare(typed: str, form: AnswerForm) -> str:
     """Return the text that is judged first: without what would make a right answer a wrong one."""
     if form == "values":
-        return prove_groups(drop_counting(typed))
+        return prove_groups(drop_counting(drop_transposed(typed)))
+    if form == "formula":
+        return join_fraction(typed)
     if form == "word":
         return drop_bullets(drop_markup(typed))
     return drop_markup(typed) if form == "option" else typed

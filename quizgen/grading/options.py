@@ -65,6 +65,3 @@ class GradingOptions(msgspec.Struct, frozen=True):
     context: QuestionContext | None = None
     settle: bool = False
     points: Fraction = Fraction(1)
-
-
-PLAIN = GradingOptions()

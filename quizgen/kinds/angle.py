@@ -70,13 +70,28 @@ class AngleSpec(ScalarSpec, kw_only=True, frozen=True):
             If it cannot be read.
         """
         found: list[Verdict] = []
-        for text in _list_spellings(typed):
+        for text in _list_spellings(self._close_turn(typed, options)):
             with suppress(FormulaReadError):
                 sides = read_typed_sides(text, options.decimal)
                 found.append(best_verdict(_judge_equal_side(self, side, options) for side in sides))
         if not found:
             read_typed_sides(typed, options.decimal)
         return max(reversed(found), key=lambda verdict: verdict.credit)
+
+    def _close_turn(self, typed: str, options: GradingOptions) -> str:
+        """Return the last of two angles that differ by whole turns, ``-30° = 330°``."""
+        *_, before, last = ["", *typed.split("=")]
+        period = parse_exact(self.period)
+        if not before or period == 0:
+            return typed
+        try:
+            found = [read_typed_sides(one.strip(), options.decimal)[0] for one in (before, last)]
+        except FormulaReadError:
+            return typed
+        first, second = (side.readings.main.value for side in found)
+        turns = (first - second) / period
+        whole = isinstance(turns, fmpq) and turns.q == 1 and turns != 0
+        return last.strip() if whole else typed
 
     @property
     def printed_unit(self) -> str:

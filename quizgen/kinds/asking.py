@@ -24,6 +24,7 @@ from quizgen.maths.numbers import (
     is_short_decimal,
     to_float,
 )
+from quizgen.maths.tolerance import Tolerance
 from quizgen.maths.units import format_unit
 from quizgen.maths.values import Value
 
@@ -222,12 +223,12 @@ def numeric_hints(spec: ScalarSpec | VectorSpec, lang: str, *sentences: str) -> 
     return nonempty(*sentences, rounding_hint(spec, _get_key_numbers(spec), lang))
 
 
-def precision_on_paper(spec: NumericSpec, lang: str) -> tuple[str, ...]:
+def precision_on_paper(spec: Tolerance, lang: str) -> tuple[str, ...]:
     """Return how exactly the numbers must be given, where the cover does not say it already."""
     return nonempty(rule_on_paper(spec, lang))
 
 
-def rule_on_paper(spec: NumericSpec, lang: str) -> str:
+def rule_on_paper(spec: Tolerance, lang: str) -> str:
     """Return in few words how exactly an answer must be given; empty if three figures do."""
     rule, number = spec.stated_rule or ("", "")
     if rule == "decimals":
@@ -239,8 +240,8 @@ def rule_on_paper(spec: NumericSpec, lang: str) -> str:
         return translate(lang, "on_paper.exact")
     if rule == "rel" and parse_exact(str(number)) < USUAL_SHARE:
         percent = pretty.format_number(f"{to_float(parse_exact(str(number)) * 100):g}")
-        return f"± {percent} %"
-    return f"± {pretty.format_number(str(number))}" if rule == "abs" else ""
+        return f"±\u00a0{percent} %"
+    return f"±\u00a0{pretty.format_number(str(number))}" if rule == "abs" else ""
 
 
 def accept_within_tolerance(spec: NumericSpec, lang: str) -> str:
@@ -261,7 +262,7 @@ def accept_within_tolerance(spec: NumericSpec, lang: str) -> str:
         percent = pretty.format_number(f"{to_float(parse_exact(str(number)) * 100):g}")
         return localise_numbers(lang, translate(lang, "scheme.within", percent=percent))
     if rule == "abs":
-        return localise_numbers(lang, f"± {pretty.format_number(str(number))}")
+        return localise_numbers(lang, f"±\u00a0{pretty.format_number(str(number))}")
     return translate(lang, "scheme.last_place")
 
 
@@ -359,7 +360,7 @@ def unit_hint(text: str, lang: str) -> str:
     return translate(lang, "ask.unit", unit=format_unit(text)) if text else ""
 
 
-def rounding_hint(spec: NumericSpec, key: KeyNumbers, lang: str) -> str:
+def rounding_hint(spec: Tolerance, key: KeyNumbers, lang: str) -> str:
     """Return how exactly an answer must be given; empty if the author stated nothing."""
     rule, number = spec.stated_rule or ("", "")
     if rule == "decimals":
@@ -377,9 +378,9 @@ def rounding_hint(spec: NumericSpec, key: KeyNumbers, lang: str) -> str:
     )
 
 
-def _is_whole(spec: NumericSpec, key: KeyNumbers) -> bool:
+def _is_whole(spec: Tolerance, key: KeyNumbers) -> bool:
     """Return whether things are counted, or key and mistakes all are whole, without fractions."""
-    if _has(spec, "counts"):
+    if not isinstance(spec, NumericSpec) or _has(spec, "counts"):
         return True
     answers = [key, *spec.traps.values()]
     return not any("/" in text for answer in answers for text in number_texts(answer))

@@ -16,7 +16,7 @@ from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, is_denied, says_otherwise
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, PICTURES, normalise_typed
 from quizgen.grading.spec import WordSpec
-from quizgen.grading.verdict import Verdict, correct, partial, wrong
+from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
 from quizgen.kinds.asking import LETTERS, assign_letters, hint, make_spec
 from quizgen.kinds.contract import (
     MOST_OPTIONS,
@@ -48,6 +48,7 @@ _TRUE = frozenset(
         "হাঁ",
         "satya",
     }
+    | {"ja klar", "klar", "sure", "of course", "natürlich", "অবশ্যই", "আছে", "হ্যাঁ আছে"}
     | {"thik", "sothik", "sotti", "haan", "hya"}
     | {"সত্য", "হ্যাঁ", "হ্যা", "সত্যি", "ঠিক", "সঠিক", "স", "1", "✓", "✔"}
 )
@@ -69,7 +70,7 @@ _FALSE = frozenset(
         "inkorrekt",
         "❌",
     }
-    | {"bhul", "mithya", "na"}
+    | {"bhul", "mithya", "na", "নেই"}
     | {"মিথ্যা", "মিথ্যে", "অসত্য", "ভূল", "বেঠিক", "না", "ভুল", "ম", "0", "2", "✗", "✘"}
 )
 _TAKING_BACK = frozenset({"না", "na", "নয়"})
@@ -102,9 +103,13 @@ _DENIED = re.compile(
 _TRUTH_FIRST = re.compile(
     r"(?P<first>[^\s,;:.(]+)(?!(?<=\d)[.,]\d)"
     r"(?:[,;:.] ?| (?=\()| ?[-–—] "
-    r"| (?=it |it's |that's |you |we |there |they |this |that |weil |because ))(?P<rest>.+)"
+    r"| (?=it |it's |its |that's |you |we |there |they |this |that |weil |because ))(?P<rest>.+)"
+    r"|(?P<alone>true|false|wahr|falsch|yes|[tf]|সত্য|মিথ্যা)(?! (?:is|are|if|when|for|or|oder|wenn) )"
+    r" (?P<more>\S+ \S.*)"
 )
 """*Yes* or *false* with a reason behind it; ``0.5`` is neither."""
+_DENIED_FIRST = re.compile(r"(?P<head>[^,;:.()]+)(?:[,;:.] | \(| [-–—] )(?P<rest>.+)")
+"""*Not true* with a reason behind it."""
 _SHORT_DENIAL = re.compile(
     r"(?:it|they|this|that|he|she) (?:does|do|is|are|was|has|can|will)(?P<no>(?: not|n't))?"
 )
@@ -129,7 +134,7 @@ _ALTERNATIVE = re.compile(
 """A word between options of which only one is meant."""
 _SET_APART = (
     re.compile(
-        r"(?P<kept>.+?)[,;]? (?:(?:and|but|und|aber) )?"
+        r"(?P<kept>.+?)[,;]? \(?(?:(?:and|but|und|aber) )?"
         r"(?:not|nicht|instead of|rather than|statt) (?P<denied>.+)",
         re.IGNORECASE | re.DOTALL,
     ),
@@ -142,7 +147,7 @@ _SET_APART = (
 _BRACKETED = re.compile(r"(?P<mark>[A-Za-zক-ঞ]) ?\((?P<words>[^()]{2,})\)")
 _ALL = frozenset({"all", "all of them", "all of these", "alle", "সব", "সবগুলো", "সবগুলি"})
 _ALL_BUT = re.compile(
-    r"(?:all|every(?:thing|one)?|alle|alles)(?: of them)?,? "
+    r"(?:all|every(?:thing|one)?|alle|alles)(?: of them)?(?: (?:is|are))?(?: true| right| correct)?,? "
     r"(?:but|except|without|außer|ohne)(?: for)? (?P<out>.+)"
     r"|(?P<before>.+?) (?:বাদে|ছাড়া|ছাড়া) (?:সব|বাকি সব)(?:গুলো|গুলি)?",
     re.IGNORECASE,
@@ -155,7 +160,7 @@ _LETTER_LAST = re.compile(r"(?P<words>[^\W\d_]{3,}|[^:]*[^\W\d_]{3}[^:]*:) (?P<m
 _LONG_WORD = 8
 """Letters of a word that can stand for an option by itself."""
 _FILLERS = re.compile(
-    r"(?<![\w\u0980-\u09ff])(?:and|und|or|oder|option|answer|ans|এবং|ও|উত্তর)(?![\w\u0980-\u09ff])",
+    r"(?<![\w\u0980-\u09ff])(?:and|und|sowie|as well as|plus|or|oder|option|answer|ans|এবং|ও|উত্তর)(?![\w\u0980-\u09ff])",
     re.IGNORECASE,
 )
 
@@ -274,6 +279,10 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
         return [whole]
     if spec.kind == "multi" and typed.casefold().strip(_AROUND) in _ALL:
         return list(range(1, len(spec.choices()) + 1))
+    pieces = _WORDED.split(typed) if spec.kind == "multi" else []
+    told = [_find_option_by_text(spec, piece) for piece in pieces]
+    if len(told) > 1 and all(told):
+        return list(dict.fromkeys(told))
     if but := _ALL_BUT.fullmatch(typed.strip(_AROUND)) if spec.kind == "multi" else None:
         left_out = _read_positions(spec, but["out"] or but["before"])
         return [one for one in range(1, len(spec.choices()) + 1) if one not in left_out]
@@ -342,7 +351,7 @@ def _find_reasoned_letter(spec: ChoiceSpec, typed: str) -> list[int]:
     ahead = _LETTER_AHEAD.fullmatch(text)
     behind = None if ahead else _CONCLUSION.fullmatch(text) or _LETTER_BEHIND.fullmatch(text)
     if ahead:
-        mark, reason = ahead["mark"], ahead["reason"]
+        mark, reason = ahead["mark"].upper(), ahead["reason"]
     elif behind:
         mark, reason = behind["rest"].strip(_AROUND), text[: behind.start("rest")]
     else:
@@ -358,7 +367,7 @@ def _find_reasoned_letter(spec: ChoiceSpec, typed: str) -> list[int]:
 
 
 _LETTER_AHEAD = re.compile(
-    r"[\[(]?(?P<mark>[A-Z])[\])]?(?: ?[,:;.–-] ?| (?=\())"
+    r"[\[(]?(?P<mark>[A-Z]|[a-z](?=[\]),:;]))[\])]?(?: ?[,:;.–-] ?| (?=\())"
     r"\(?(?!(?:not|no|nicht|nein|or|oder|maybe|perhaps|if)\b)(?P<reason>\S[^()]{6,}?)\)?",
     re.DOTALL,
 )
@@ -376,7 +385,8 @@ def _find_worded_options(spec: ChoiceSpec, typed: str) -> list[int]:
     quoted = _find_quoted_options(spec, typed) if spec.kind == "multi" else []
     if quoted:
         return quoted
-    pieces = _WORDED.split(typed) if spec.kind == "multi" else [typed]
+    quotes = _IN_QUOTES.findall(typed)
+    pieces = (quotes or _WORDED.split(typed)) if spec.kind == "multi" else [typed]
     found = [_find_wording(spec, piece) for piece in pieces if piece.strip()]
     return list(dict.fromkeys(found)) if all(found) else []
 
@@ -395,6 +405,7 @@ def _find_wording(spec: ChoiceSpec, words: str) -> int:
     return found if find_wording_in(remarked["remark"], languages) in {0, found} else 0
 
 
+_IN_QUOTES = re.compile(r'["“„]([^"“”„]+)["”“]')
 _REMARKED = re.compile(r"(?P<words>[^()]{3,}?) ?\((?P<remark>[^()]+)\)")
 _AROUND_REMARK = " .!।"
 
@@ -481,14 +492,19 @@ def read_truth(text: str) -> int:
         return found
     if _ALTERNATIVE.search(word):
         return 0
+    denied = _DENIED_FIRST.fullmatch(word)
+    told = _find_denied_truth(denied["head"]) if denied else 0
+    if denied and told and not _names_other_truth(denied["rest"], told):
+        return told
     match = _TRUTH_FIRST.fullmatch(word)
-    first = _find_truth_word(match["first"]) if match else 0
+    first = _find_truth_word(match["first"] or match["alone"]) if match else 0
     if match is None or not first:
         concluded = _CONCLUSION.fullmatch(word)
         return read_truth(concluded["rest"]) if concluded else 0
-    rest = _IT_IS.sub("", match["rest"].strip(_AROUND))
+    behind = (match["rest"] or match["more"]).strip(_AROUND)
+    rest = _IT_IS.sub("", behind)
     said = read_truth(rest) if rest else 0
-    denies = _SHORT_DENIAL.fullmatch(match["rest"].strip(_AROUND))
+    denies = _SHORT_DENIAL.fullmatch(behind)
     said = said or (2 if denies and denies["no"] else 1 if denies else 0)
     clear = said == first or not (said or _names_other_truth(rest, first))
     return first if clear else 0
@@ -599,8 +615,34 @@ def _find_option_by_text(spec: ChoiceSpec, typed: str) -> int:
         for texts in (spec.choices(), *spec.said)
         for place, option in enumerate(texts, 1)
         if fold_word(option) == folded
-    }
+    } or _find_rounded_values(typed, spec.choices())
     return hits.pop() if len(hits) == 1 else 0
+
+
+def _find_rounded_values(typed: str, options: list[str]) -> set[int]:
+    """Return the places of options that are this number, rounded to the digits typed.
+
+    A whole number with nothing behind it is rather the place of an option.
+    """
+    said = _VALUE.fullmatch(typed.replace("−", "-").strip())
+    if said is None or not (said["unit"] or "." in said["number"].replace(",", ".")):
+        return set()
+    number = said["number"].replace(",", ".")
+    places = len(number.partition(".")[2])
+    found = set()
+    for place, option in enumerate(options, 1):
+        listed = _VALUE.fullmatch(option.replace("−", "-").replace("\xa0", " "))
+        if listed is None or said["unit"] not in {"", listed["unit"]}:
+            continue
+        if (
+            abs(Fraction(listed["number"].replace(",", ".")) - Fraction(number)) * 10**places
+            <= HALF
+        ):
+            found.add(place)
+    return found
+
+
+_VALUE = re.compile(r"(?P<number>-?\d+(?:[.,]\d+)?) ?(?P<unit>[^\d\s.,;:()\[\]-]*)")
 
 
 def _read_positions(spec: ChoiceSpec, typed: str) -> list[int]:

@@ -90,10 +90,12 @@ _PROMPT = re.compile(
 )
 """What stands before an output that is copied or told."""
 _ALL_QUOTED = re.compile(r"(?:\"|')(.+)(?:\"|')", re.DOTALL)
-_ASSIGNED = re.compile(r"^(?:-+>|=>|→|⇒|\$|print:|[^\W\d][\w.]*(?:\[[\d,: ]*\])?=(?!=)|=)\s*")
+_ASSIGNED = re.compile(
+    r"^(?:-+>|=>|→|⇒|\$|print:|\([^\W\d][\w, ]*\)=(?!=)|[^\W\d][\w.]*(?:\[[\d,: ]*\])?=(?!=)|=)\s*"
+)
 """What an output is called, or an arrow to it."""
 _TAIL = re.compile(
-    r"\s*(?:\((?=[^\W\d])[^()\d]*\)|#.*|(?:,\s*)?\b(?:because|since|weil|কারণ)\b.*|\s[-–—]\s.*)$",
+    r"\s*(?:\((?=[^\W\d])[^()\d]*\)|\(=[^()]*\)|print হবে|হবে|#.*|(?:,\s*)?\b(?:because|since|weil|কারণ)\b.*|\s[-–—]\s.*)$",
     re.DOTALL,
 )
 """A remark behind an output."""

@@ -8,14 +8,19 @@ from typing import TYPE_CHECKING
 
 from flint import fmpq
 
+from quizgen.core.decoding import convert
 from quizgen.grading.judging.sampled_equality import values_agree
 from quizgen.grading.reading.normalise import normalise_typed
 from quizgen.grading.reading.numbers import ReadNumber, read_number
 from quizgen.grading.reading.source_map import SourceText
-from quizgen.kinds.contract import PartContext
-from quizgen.maths.constants import parse_exact
+from quizgen.grading.rounding import format_key
+from quizgen.grading.spec import WordSpec
+from quizgen.kinds.asking import precision_on_paper, rounding_hint
+from quizgen.kinds.contract import AuthoredAnswer, PartContext
+from quizgen.maths.constants import Scalar, parse_exact
 from quizgen.maths.notation import format_tree, parse_formula, pretty
 from quizgen.maths.numbers import is_short_decimal
+from quizgen.maths.tolerance import RULES, Tolerance
 from quizgen.maths.tree import Call, Expr, Num
 from quizgen.maths.values import Value
 
@@ -66,6 +71,65 @@ def format_plain(expr: Expr) -> str:
     return format_tree(expr).strip("{}") if expr.decimal else str(expr.value)
 
 
+class AuthoredEntries(AuthoredAnswer, kw_only=True, frozen=True):
+    """Numbers of a form of the solver, and how near each must be: one rule at most."""
+
+    decimals: int | None = None
+    sigfigs: int | None = None
+    rel: Scalar | None = None
+    abs: Scalar | None = None
+
+
+class EntriesSpec(WordSpec, kw_only=True, frozen=True):
+    """Fields of a key of several numbers, and how near each must be.
+
+    Without a rule numbers with a short decimal form are exact, and others may be rounded.
+    """
+
+    decimals: int | None = None
+    sigfigs: int | None = None
+    rel: Scalar | None = None
+    abs: Scalar | None = None
+
+    def validate(self) -> None:
+        """Check the rule; errors as ``WordSpec.validate``."""
+        if self.tolerance:
+            self.tolerance.validate()
+
+    def stated_rule(self) -> dict[str, Scalar]:
+        """Return the rule that is stated, by its name; empty if none is."""
+        names = AuthoredEntries.__struct_fields__
+        found = {name: getattr(self, name) for name in names if name in RULES}
+        return {name: number for name, number in found.items() if number is not None}
+
+    @property
+    def tolerance(self) -> Tolerance | None:
+        """The rule as kinds of numbers have it; None if none is stated."""
+        stated = self.stated_rule()
+        return convert(stated, Tolerance) if stated else None
+
+    def hint_rounding(self, lang: str) -> tuple[str, ...]:
+        """Return the sentence on rounding for pages; empty if no rule is stated."""
+        rule = self.tolerance
+        return (rounding_hint(rule, [], lang),) if rule else ()
+
+    def hint_rounding_on_paper(self, lang: str) -> tuple[str, ...]:
+        """Return the same in few words."""
+        rule = self.tolerance
+        return precision_on_paper(rule, lang) if rule else ()
+
+
+def round_entry(text: str, rule: Tolerance | None) -> str:
+    """Return a number of a key as far as a rule asks; as it is without one, or if it is shorter."""
+    if rule is None:
+        return text
+    value = parse_exact(text)
+    if isinstance(value, fmpq) and is_short_decimal(value) and rule.decimals is None:
+        return text
+    rounded = format_key(rule, value)
+    return rounded.rstrip("0").rstrip(".") if "." in rounded and "e" not in rounded else rounded
+
+
 def show_entry(text: str) -> str:
     """Return a number of a key as it is printed, and as it can be typed back."""
     plain = format_plain(parse_entry(text))
@@ -91,9 +155,14 @@ def read_entry(piece: str | SourceText, decimal: str) -> ReadNumber:
     return read_number(source, decimal).main
 
 
-def entry_matches(value: Value, text: str) -> bool:
-    """Whether a value is a number of a key, or that rounded if it has no short decimals."""
+def entry_matches(value: Value, text: str, rule: Tolerance | None = None) -> bool:
+    """Whether a value is a number of a key: as near as a rule asks, if one is stated.
+
+    Without one, it may be rounded where it has no short decimals.
+    """
     key = parse_exact(text)
+    if rule is not None:
+        return rule.is_within(value, key)
     if values_agree(value, key) is not False:
         return True
     return not is_short_decimal(key) and bool(abs(value - key) <= abs(key) * ROUNDED)

@@ -21,7 +21,7 @@ from quizgen.grading.judging.spelling import (
     is_another_word,
     nearest_terms,
 )
-from quizgen.grading.judging.wordings import load_translations
+from quizgen.grading.judging.wordings import find_translation
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, is_denied, says_otherwise
 from quizgen.grading.reading.normalise import ANSWER, PICTURES, apply_rewrite, refuse_invisible
@@ -290,7 +290,8 @@ def _judge_gap(spec: GapSpec, gap: list[str], word: str) -> Verdict:
     if not folded:
         return wrong("", "gap-empty") if not word else unreadable("no-answer")
     folded = _ZEROS.sub("", folded)
-    numbers = [term for term in gap if term[0].isdigit()]
+    spelt = (str(list_number_words().get(term.casefold(), "")) for term in gap)
+    numbers = [term for term in (*gap, *spelt) if term[:1].isdigit()]
     if numbers and _is_number_said_otherwise(word, numbers):
         return correct(safe_echo(word))
     if folded in right or _fold_spelt_out(word) in right or _is_inflection(word, right):
@@ -312,8 +313,8 @@ def _translate_word(word: str, terms: list[str]) -> str:
     pieces = [piece for piece in _LISTED.split(word) if piece]
     if fold_word(word) in known or len(pieces) > MOST_PIECES:
         return word
-    whole = load_translations().get(fold_word(word), ())
-    said = [load_translations().get(fold_word(piece), (piece,))[0] for piece in pieces]
+    whole = find_translation(word)
+    said = [(find_translation(piece) or (piece,))[0] for piece in pieces]
     found = (known.get(fold_word(one)) for one in (*whole, " ".join(said)))
     return next(filter(None, found), word)
 
@@ -328,7 +329,8 @@ def _is_number_said_otherwise(word: str, numbers: list[str]) -> bool:
 
     ``four`` stands for 4, and ``0.507 µm`` for 507 nm.
     """
-    if str(list_number_words().get(word.casefold())) in numbers:
+    said = apply_rewrite("digits", word).casefold()
+    if str(list_number_words().get(said)) in numbers or said in numbers:
         return True
     typed = _read_quantity(word)
     return typed is not None and typed in map(_read_quantity, numbers)
@@ -369,8 +371,12 @@ def _drop_remark(word: str, terms: list[str]) -> str:
     outside, bracket, remark = word.partition("(")
     if not bracket or is_denied(outside) or _OFFERED.search(remark):
         return word
-    plain = _drop_idle_words(outside.strip(), terms)
-    return plain if fold_word(plain) in map(fold_word, terms) else word
+    plain = _drop_idle_words(_translate_word(outside.strip(), terms), terms)
+    if fold_word(plain) in map(fold_word, terms):
+        return plain
+    inside = _translate_word(remark.strip(" )"), terms)
+    foreign = not _holds_a_term(outside, terms) and fold_word(inside) in map(fold_word, terms)
+    return inside if foreign else word
 
 
 _OFFERED = re.compile(
@@ -392,7 +398,11 @@ def _is_in_company(word: str, gap: Sequence[str], others: Sequence[str]) -> bool
     A term of one word goes before a noun, ``high price``, or before a remark in brackets; one of
     several may stand anywhere: ``all rows at the same time``.
     """
-    words = [fold_word(piece) for piece in re.split(r"[\s,;]+", word) if fold_word(piece)]
+    pieces = re.split(r"[\s,;]+", _TIMES_AHEAD.sub("", word))
+    idle = _load_idle_words() - {fold_word(one) for one in gap}
+    words = [fold_word(piece) for piece in pieces if fold_word(piece) and piece not in idle]
+    if "".join(words) in map(fold_word, gap):
+        return True
     if len(words) < len(("term", "noun")) or not word[:1].isalpha():
         return False
     wrong = {fold_word(term) for term in others}
@@ -400,7 +410,7 @@ def _is_in_company(word: str, gap: Sequence[str], others: Sequence[str]) -> bool
         wanted = [fold_word(piece) for piece in term.split()]
         places = [i for i in range(len(words)) if words[i : i + len(wanted)] == wanted]
         rest = [*words[: places[0]], *words[places[0] + len(wanted) :]] if places else []
-        alone = len(wanted) == 1 and (places != [0] or len(rest) > 1)
+        alone = len(wanted) == 1 and (places != [0] or len(rest) > len(("fill", "factor")))
         known = wrong & {*rest, "".join(rest)}
         few = rest and not alone and not known and len(rest) <= MOST_COMPANY
         if few and not says_otherwise(" ".join(one for one in rest if one != "power")):
@@ -408,6 +418,8 @@ def _is_in_company(word: str, gap: Sequence[str], others: Sequence[str]) -> bool
     return False
 
 
+_TIMES_AHEAD = re.compile(r"^\d+ ?(?:times|x|×|mal|গুণ) ", re.IGNORECASE)
+"""By how much something is ``10 times less``."""
 MOST_COMPANY = 3
 """Words beside a term that are no sentence yet."""
 
@@ -432,8 +444,8 @@ def _judge_by_nearest_term(spec: GapSpec, word: str, gap: list[str], others: lis
 
 def _fold_spelt_out(word: str) -> str:
     """Return ``C, M, Y, K`` as the folded CMYK; empty if nothing is spelt out."""
-    spelt = re.search(r"[,.·]", word) and not re.search(r"\d", word)
-    return fold_word(re.sub(r"[\s,./·-]", "", word)) if spelt else ""
+    spelt = re.search(r"[,.·+&]", word) and not re.search(r"\d", word)
+    return fold_word(re.sub(r"[\s,./·+&-]", "", word)) if spelt else ""
 
 
 def _is_inflection(word: str, right: set[str]) -> bool:

@@ -45,12 +45,19 @@ _LEFT_OVER = re.compile(
 """Right sides that are said to belong to nothing, behind the pairs."""
 _GROUPS = (
     r"[;\n]",
+    r"[;\n]|\. ",
     r"[,;\n](?![^(]*\))\s*(?=[A-Z]\b)",
     r"[;\n]| (?:and|und|&|ও|এবং) ",
     r"[,;\n]",
     r"[,;\n]| (?:and|und|&|ও|এবং) ",
 )
 """What may stand between pairs, or between all that belong to one right side."""
+_REST = re.compile(
+    r"^(?:and |und )?(?:the |der |die )?(?:rest|others?|remaining|übrigen?|anderen?|বাকি(?:গুলো|টা|রা)?|অন্যগুলো)"
+    r"(?: (?:is|are|ist|sind))?(?= |:|=)[ :=]*|[ :=]*(?:rest|others|বাকিগুলো)$",
+    re.IGNORECASE,
+)
+"""All left sides that have not been named: ``BCE = CCD, rest CMOS``."""
 _SIDES = re.compile(r"\s*(?:-+>|=>|[-:=→⇒])+\s*|\s+(?:-|is|ist|goes with|belongs to|passt zu)\s+")
 _FILLERS = frozenset(
     {"and", "und", "with", "mit", "to", "zu", "is", "ist", "goes", "belongs"}
@@ -214,20 +221,27 @@ def _list_rights_in_order(spec: MatchSpec, text: str) -> list[tuple[str, str]]:
         marks = list(text)
     if len(marks) == len(spec.pairs) and all(mark.isdecimal() for mark in marks):
         return list(zip(spec.pairs, marks, strict=True))
-    worded = [_find_side(spec, words, _list_targets(spec)) for words in _COMMAS.split(text)]
+    pieces = text.split() if len(text.split()) == len(spec.pairs) else _COMMAS.split(text)
+    worded = [_find_side(spec, words.strip(","), _list_targets(spec)) for words in pieces]
     return list(zip(spec.pairs, worded, strict=True)) if _is_whole(spec, worded) else []
 
 
 def _is_whole(spec: MatchSpec, worded: list[str]) -> bool:
-    """Return whether words name a right side for each left one, none of them twice."""
-    return len(worded) == len(spec.pairs) == len({*worded} - {""})
+    """Return whether words name a right side for each left one, none twice that may not be."""
+    named = all(worded) and len(worded) == len(spec.pairs)
+    return named and (spec.allows_reuse() or len({*worded}) == len(worded))
 
 
 def _read_groups(spec: MatchSpec, text: str) -> list[tuple[str, str]]:
     """Return the pairs of ``CCD: A, B; CMOS: C`` or ``HSV 2, YUV 1``; none if one is unclear."""
     for between in _GROUPS:
         groups = [group.strip() for group in re.split(between, text) if group.strip()]
-        read = [_read_group(spec, group) for group in groups]
+        rest = _REST.search(groups[-1]) if len(groups) > 1 else None
+        read = [_read_group(spec, group) for group in (groups[:-1] if rest else groups)]
+        if rest and all(read):
+            named = {left for pairs in read for left, _ in pairs}
+            others = "".join(left for left in spec.pairs if left not in named)
+            read.append(_read_group(spec, f"{others}: {_REST.sub('', groups[-1])}"))
         if len(groups) > 1 and all(read):
             return [pair for pairs in read for pair in pairs]
     return []
@@ -241,10 +255,13 @@ def _read_group(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
     runs = [token for token in tokens if _is_run_of_labels(spec, token)]
     lefts = [label for token in runs for label in token]
     rest = " ".join(token for token in tokens if token not in runs)
+    digits = [token for token in tokens if token.isdecimal()]
+    if len(lefts) == len(digits) == 1 and digits[0] in _list_targets(spec):
+        meant = _find_side(spec, rest.replace(digits[0], ""), _list_targets(spec))
+        return [(lefts[0], digits[0])] if meant in {"", digits[0]} else []
     if lefts:
         right = rest if rest in _list_targets(spec) else _find_side(spec, rest, _list_targets(spec))
         return [(left, right) for left in lefts] if right else []
-    digits = [token for token in tokens if token.isdecimal()]
     if len(digits) == 1:
         words = " ".join(token for token in tokens if token not in digits)
         left = _find_side(spec, words, list(spec.pairs))
@@ -253,7 +270,8 @@ def _read_group(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
     if len(sides) != len(("left", "right")):
         return []
     left = _find_side(spec, sides[0], list(spec.pairs))
-    right = _find_side(spec, sides[1], _list_targets(spec))
+    right = sides[1] if sides[1] in _list_targets(spec) else ""
+    right = right or _find_side(spec, sides[1], _list_targets(spec))
     return [(left, right)] if left and right else []
 
 

@@ -10,45 +10,48 @@ import msgspec
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.matrices import split_matrix
-from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, correct, verdict_by_share, wrong
 from quizgen.kinds.asking import hint, make_spec, misconception_specs
 from quizgen.kinds.contract import (
     AnswerKind,
     AskedPart,
-    AuthoredAnswer,
     InputControl,
     PartContext,
 )
 from quizgen.kinds.forms import (
+    AuthoredEntries,
+    EntriesSpec,
     drop_name,
     entry_matches,
     format_plain,
     parse_entry,
     read_entry,
     require_form,
+    round_entry,
     show_entry,
     typeset_key,
 )
 from quizgen.maths.constants import parse_exact
+from quizgen.maths.tolerance import Tolerance
 from quizgen.maths.tree import Call, Expr
 from quizgen.maths.values import Value
 
 if TYPE_CHECKING:
     from quizgen.question.inlines import TextOrInlines
 
+_HINT = hint("ask.matrix")
 Entries = list[list[str]]
 """Rows of numbers, each a constant formula."""
 
 
-class AuthoredMatrix(AuthoredAnswer, kw_only=True, tag="matrix", frozen=True):
+class AuthoredMatrix(AuthoredEntries, kw_only=True, tag="matrix", frozen=True):
     """A matrix of the solver."""
 
     of: str
 
 
-class MatrixSpec(WordSpec, kw_only=True, frozen=True):
-    """Matrix: ``entries``, row by row."""
+class MatrixSpec(EntriesSpec, kw_only=True, frozen=True):
+    """Matrix: ``entries``, row by row; how near each must be."""
 
     written_as: ClassVar[AnswerForm] = "formula"
 
@@ -57,6 +60,7 @@ class MatrixSpec(WordSpec, kw_only=True, frozen=True):
 
     def validate(self) -> None:
         """Check entries, and that all rows are of one length."""
+        super().validate()
         for rows in (self.entries, *self.traps.values()):
             if not rows or len({len(row) for row in rows}) != 1:
                 raise ValueError("entries: rows of one length are needed")
@@ -67,16 +71,21 @@ class MatrixSpec(WordSpec, kw_only=True, frozen=True):
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
         """Judge a typed matrix."""
         rows, read_as = _read_matrix(typed, options.decimal)
-        if _is_same(rows, self.entries):
+        if _is_same(rows, self.entries, self.tolerance):
             return correct(read_as)
         for name, entries in self.traps.items():
-            if _is_same(rows, entries):
+            if _is_same(rows, entries, self.tolerance):
                 return wrong(read_as, f"trap:{name}")
         return _diagnose(self, rows, read_as)
 
     def show(self) -> str:
         """Return the key as it is printed, and as it can be typed back."""
-        return f"[{'; '.join(', '.join(map(show_entry, row)) for row in self.entries)}]"
+        rows = self.rounded_entries()
+        return f"[{'; '.join(', '.join(map(show_entry, row)) for row in rows)}]"
+
+    def rounded_entries(self) -> Entries:
+        """Return the entries as far as they are asked."""
+        return [[round_entry(text, self.tolerance) for text in row] for row in self.entries]
 
 
 def build_matrix(entries: Entries) -> Expr:
@@ -98,26 +107,30 @@ def _read_matrix(typed: str, decimal: str) -> tuple[list[list[Value]], str]:
     return [[number.value for number in row] for row in rows], f"[{echo}]"
 
 
-def _is_same(rows: list[list[Value]], entries: Entries) -> bool:
+def _is_same(rows: list[list[Value]], entries: Entries, rule: Tolerance | None) -> bool:
     """Return whether a matrix has the shape and the entries of a key."""
-    return len(rows) == len(entries) and all(map(_is_same_row, rows, entries))
+    return len(rows) == len(entries) and all(
+        len(row) == len(key) and all(_match_entries(row, key, rule))
+        for row, key in zip(rows, entries, strict=True)
+    )
 
 
-def _is_same_row(row: list[Value], key: list[str]) -> bool:
-    """Return whether a row has the length and the entries of a key's row."""
-    return len(row) == len(key) and all(map(entry_matches, row, key))
+def _match_entries(row: list[Value], key: list[str], rule: Tolerance | None) -> list[bool]:
+    """Return for each entry of a row whether it is that of a key's row."""
+    return [entry_matches(value, text, rule) for value, text in zip(row, key, strict=True)]
 
 
 def _diagnose(spec: MatrixSpec, rows: list[list[Value]], read_as: str) -> Verdict:
     """Return what is wrong: the size, rows and columns exchanged, one row, or single entries."""
     turned = [list(column) for column in zip(*rows, strict=True)]
-    if _is_same(turned, spec.entries):
+    if _is_same(turned, spec.entries, spec.tolerance):
         return wrong(read_as, "transposed")
     height, width = len(spec.entries), len(spec.entries[0])
     if (len(rows), len(rows[0])) != (height, width):
         return wrong(read_as, "matrix-size", rows=len(rows), columns=len(rows[0]))
     right = [
-        list(map(entry_matches, row, key)) for row, key in zip(rows, spec.entries, strict=True)
+        _match_entries(row, key, spec.tolerance)
+        for row, key in zip(rows, spec.entries, strict=True)
     ]
     count = sum(map(sum, right))
     off = [index + 1 for index, row in enumerate(right) if not all(row)]
@@ -150,7 +163,17 @@ def _list_entries(part: PartContext, form: Expr) -> Entries:
 
 def explain_key(spec: MatrixSpec, _lang: str) -> TextOrInlines:
     """The matrix as it is written by hand."""
-    return typeset_key(build_matrix(spec.entries), spec.show())
+    return typeset_key(build_matrix(spec.rounded_entries()), spec.show())
 
 
-KIND = AnswerKind(AuthoredMatrix, MatrixSpec, ask, hint("ask.matrix"), explain_key)
+def input_hints(spec: MatrixSpec, lang: str) -> tuple[TextOrInlines, ...]:
+    """Return how a matrix is typed, and how exactly."""
+    return (*_HINT(spec, lang), *spec.hint_rounding(lang))
+
+
+def paper_hints(spec: MatrixSpec, lang: str) -> tuple[str, ...]:
+    """Return how exactly the entries must be given."""
+    return spec.hint_rounding_on_paper(lang)
+
+
+KIND = AnswerKind(AuthoredMatrix, MatrixSpec, ask, input_hints, explain_key, paper_hints)

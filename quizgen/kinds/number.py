@@ -228,7 +228,7 @@ MILLIONS = frozenset({"Mpx", "MB", "Mbit"})
 _MILLION = re.compile(r"(?<=\d) ?(?:millions?|millionen|mio\.?|মিলিয়ন)(?!\w)", re.IGNORECASE)
 _TIMES = re.compile(r" ?-? ?(?<![^\W\d_])(?:times|fold|fach|mal|[xX*]|গুণ|বার|টি|টা)$", re.IGNORECASE)
 _PER_HUNDRED = re.compile(r"^শতকরা (.+)$")
-_REMARK = re.compile(r"(-?\d[\d.,/]*) \((?:[=≈] ?)?([^()]*\d[^()]*)\)")
+_REMARK = re.compile(r"(?<![\d.,*/^+-])(-?\d[\d.,/]*) \((?:[=≈] ?)?([^()]*\d[^()]*)\)$")
 _LENS = re.compile(r"[fFƒ] ?/? ?(?=\d)|1 ?: ?(?=\d)")
 _RATIO = re.compile(r"(?<=\d) ?: ?(?=\d)")
 
@@ -258,7 +258,7 @@ def _with_remark(source: SourceText, options: GradingOptions) -> list[EqualitySi
 
     Then it is no product, but a number and a remark on it.
     """
-    if not _REMARK.fullmatch(source.text):
+    if not _REMARK.search(source.text):
         return []
     try:
         return _sides(source.substitute(_REMARK, lambda m: f"{m[1]} = {m[2]}"), options)

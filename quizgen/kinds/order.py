@@ -40,9 +40,11 @@ _LEFT_OUT = re.compile(
     r"(?:(?:without|leave out|leaving out|leaves out|ohne|বাদ) (?P<out>[^()]+)"
     rf"|(?:(?:and |but |und )?(?:not|no|nicht)|except|außer) (?P<denied>{_LETTERED})"
     rf"|(?P<wrong>{_LETTERED}) (?:(?:is |are |ist |sind |was )?"
-    r"(?:wrong|false|out|falsch|left out|not|nicht|missing|বাদ)"
-    r"|(?:does|do)(?: not|n't) (?:belong|fit)"
-    r"|gehör(?:t|en) nicht dazu|entfällt|fällt weg)(?:,? (?:because|since|weil) [^()]+)?)[).]*",
+    r"(?:wrong|false|out|falsch|left out|not|nicht|missing|impossible|unused|extra|superfluous"
+    r"|nonsense|unnecessary|not needed|unmöglich|überflüssig|übrig|Unsinn|বাদ|ভুল|অসম্ভব|লাগে না|হয় না|নয়)"
+    r"|(?:does|do)(?: not|n't) (?:belong|fit|happen|exist)|makes no sense|never happens"
+    r"|gehör(?:t|en) nicht dazu|passt nicht|entfällt|fällt weg)"
+    r"(?:[,:]? (?:because|since|weil|কারণ) [^()]+)?)[).]*",
     re.IGNORECASE,
 )
 _LEFT_OUT_FIRST = re.compile(
@@ -81,7 +83,21 @@ _TIED = re.compile(
 )
 """Steps set equal or beside each other among others in order: ``B = D > A``, ``E G A/B F``."""
 _FILLERS = frozenset(
-    {"then", "dann", "danach", "and", "und", "তারপর", "এরপর", "এবং", "first", "zuerst", "প্রথমে", "+"}
+    {
+        "then",
+        "dann",
+        "danach",
+        "erst",
+        "und",
+        "and",
+        "তারপর",
+        "এরপর",
+        "এবং",
+        "first",
+        "zuerst",
+        "প্রথমে",
+        "+",
+    }
     | {"finally", "last", "next", "zuletzt", "শেষে"}
 )
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 from typing import ClassVar
 
 from flint import fmpq
+from msgspec.structs import replace
 
 from quizgen.grading.diagnosis.carry_forward import diagnosis_for
 from quizgen.grading.diagnosis.numeric_slips import (
@@ -86,6 +88,37 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
         FormulaReadError
             If it cannot be read.
         """
+        clock = _CLOCK.fullmatch(typed.strip())
+        if clock and listed_unit(self.unit).dimension == listed_unit(SECONDS).dimension:
+            return self._judge_clock(clock, options)
+        return self._judge_plain(typed, options)
+
+    def _judge_clock(self, clock: re.Match[str], options: GradingOptions) -> Verdict:
+        """Return the verdict on ``19:17`` as hours and minutes, or minutes and seconds, or a share.
+
+        Raises
+        ------
+        FormulaReadError
+            If it is right in none of these ways.
+        """
+        first, second, third = int(clock[1]), int(clock[2]), int(clock[3] or 0)
+        for seconds in (3600 * first + 60 * second + third, 60 * first + second):
+            verdict = self._judge_plain(f"{seconds} {SECONDS}", options)
+            if verdict.credit:
+                return replace(verdict, read_as=clock[0])
+        verdict = self._judge_plain(clock[0], options)
+        if verdict.credit:
+            return verdict
+        raise FormulaReadError("two-readings", 1, clock[0])
+
+    def _judge_plain(self, typed: str, options: GradingOptions) -> Verdict:
+        """Return the verdict on a number with a unit, or on equal ones that were chained.
+
+        Raises
+        ------
+        FormulaReadError
+            If it cannot be read.
+        """
         try:
             sides = read_typed_sides(typed, options.decimal)
         except FormulaReadError as error:
@@ -106,6 +139,12 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
             return f"{time} {SECONDS}"
         number = pretty.format_number(format_key(self, value))
         return f"{number} {format_unit(self.unit)}".strip()
+
+
+_CLOCK = re.compile(
+    r"(?:[^\W\d_]\w* ?[=:≈] ?)?(\d+):([0-5]\d)(?::([0-5]\d))?(?: ?(?:h|min|m|s|Uhr))?"
+)
+"""A time as clocks show it."""
 
 
 def _judge_side(spec: QuantitySpec, side: EqualitySide, options: GradingOptions) -> Verdict:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
 from typing import TYPE_CHECKING, ClassVar, Literal
 
@@ -11,22 +12,24 @@ from quizgen.grading.judging.sampled_equality import values_agree
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.lists import read_list
-from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, correct, verdict_by_share, wrong
 from quizgen.kinds.asking import hint, make_spec, misconception_specs
 from quizgen.kinds.contract import (
     AnswerKind,
     AskedPart,
-    AuthoredAnswer,
+    FieldProblem,
     InputControl,
     PartContext,
 )
 from quizgen.kinds.forms import (
+    AuthoredEntries,
+    EntriesSpec,
     entry_matches,
     format_plain,
     parse_entry,
     read_entry,
     require_form,
+    round_entry,
     show_entry,
     typeset_key,
 )
@@ -41,15 +44,20 @@ if TYPE_CHECKING:
 _HINT = hint("ask.vector")
 
 
-class AuthoredVector(AuthoredAnswer, kw_only=True, tag="vector", frozen=True):
+class AuthoredVector(AuthoredEntries, kw_only=True, tag="vector", frozen=True):
     """A vector of the solver."""
 
     of: str
     up_to: Literal["", "scale"] = ""
 
+    def find_problems(self) -> Iterator[FieldProblem]:
+        """Yield a problem if a rule of rounding stands beside ``up_to``: any multiple is right."""
+        if self.up_to and (self.decimals, self.sigfigs, self.rel, self.abs) != (None,) * 4:
+            yield ("up_to",), "QG112", "any multiple counts, so no rounding can be asked"
 
-class ColumnSpec(WordSpec, kw_only=True, frozen=True):
-    """Vector: ``components`` in order; ``up_to`` = scale for any multiple."""
+
+class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
+    """Vector: ``components``, how near each must be; ``up_to`` = scale for any multiple."""
 
     written_as: ClassVar[AnswerForm] = "formula"
 
@@ -59,6 +67,7 @@ class ColumnSpec(WordSpec, kw_only=True, frozen=True):
 
     def validate(self) -> None:
         """Check the components."""
+        super().validate()
         for components in (self.components, *self.traps.values()):
             for text in components:
                 parse_exact(text)
@@ -77,9 +86,9 @@ class ColumnSpec(WordSpec, kw_only=True, frozen=True):
                 return wrong(read_as, f"trap:{name}")
         if self.up_to or not values:
             return wrong(read_as)
-        if all(map(entry_matches, [-value for value in values], self.components)):
+        if all(self._match_components([-value for value in values], self.components)):
             return wrong(read_as, "sign")
-        right = sum(map(entry_matches, values, self.components))
+        right = sum(self._match_components(values, self.components))
         credit, count = Fraction(right, len(values)), len(values)
         return verdict_by_share(credit, read_as, "matrix-entries", right=right, of=count)
 
@@ -87,11 +96,20 @@ class ColumnSpec(WordSpec, kw_only=True, frozen=True):
         """Return whether a vector is the key, or a multiple of it if ``up_to`` is "scale"."""
         if self.up_to == "scale":
             return _are_parallel(values, list(map(parse_exact, components)))
-        return all(map(entry_matches, values, components))
+        return all(self._match_components(values, components))
+
+    def _match_components(self, values: list[Value], components: list[str]) -> list[bool]:
+        """Return for each value whether it is its component."""
+        pairs = zip(values, components, strict=True)
+        return [entry_matches(value, text, self.tolerance) for value, text in pairs]
 
     def show(self) -> str:
         """Return the key as it is printed, and as it can be typed back."""
-        return f"({'; '.join(map(show_entry, self.components))})"
+        return f"({'; '.join(map(show_entry, self.rounded_components()))})"
+
+    def rounded_components(self) -> list[str]:
+        """Return the components as far as they are asked."""
+        return [round_entry(text, self.tolerance) for text in self.components]
 
 
 def build_vector(components: list[str]) -> Expr:
@@ -129,17 +147,22 @@ def _list_components(part: PartContext, form: Expr) -> list[str]:
 
 def input_hints(spec: ColumnSpec, lang: str) -> tuple[TextOrInlines, ...]:
     """Return how a vector is typed, and whether any multiple counts."""
-    return (*_HINT(spec, lang), *paper_hints(spec, lang))
+    return (*_HINT(spec, lang), *_hint_multiples(spec, lang), *spec.hint_rounding(lang))
 
 
 def paper_hints(spec: ColumnSpec, lang: str) -> tuple[str, ...]:
-    """Return whether any multiple counts."""
+    """Return whether any multiple counts, and how exactly the components must be given."""
+    return (*_hint_multiples(spec, lang), *spec.hint_rounding_on_paper(lang))
+
+
+def _hint_multiples(spec: ColumnSpec, lang: str) -> tuple[str, ...]:
+    """Return that any multiple counts, if it does."""
     return (translate(lang, "ask.up_to_scale"),) if spec.up_to else ()
 
 
 def explain_key(spec: ColumnSpec, _lang: str) -> TextOrInlines:
     """The vector as it is written by hand."""
-    return typeset_key(build_vector(spec.components), spec.show())
+    return typeset_key(build_vector(spec.rounded_components()), spec.show())
 
 
 KIND = AnswerKind(AuthoredVector, ColumnSpec, ask, input_hints, explain_key, paper_hints)

@@ -33,13 +33,16 @@ from quizgen.grading.diagnosis.carry_forward import are_nearly_equal
 from quizgen.grading.spec import AnySpec, SpecBase
 from quizgen.kinds.contract import AskedPart, asked_quantities
 from quizgen.kinds.grade import grade_answer, show_key
-from quizgen.lint.derivations import derivation_lines, find_derivation_faults
-from quizgen.lint.examples import find_misjudged_examples
 from quizgen.lint.figures import check_figures
 from quizgen.lint.foreign_words import find_foreign_words
 from quizgen.lint.item_quality import QualityReview
+from quizgen.lint.judged_examples import (
+    derivation_lines,
+    find_derivation_faults,
+    find_misjudged_examples,
+    find_unsound_schemes,
+)
 from quizgen.lint.leaks import QuestionContent, question_content
-from quizgen.lint.mark_schemes import find_unsound_schemes
 from quizgen.lint.unused_draws import find_unused_draws
 from quizgen.locale import FIRST, get_language, localise_numbers
 from quizgen.maths.notation import format_tree

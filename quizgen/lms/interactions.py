@@ -14,6 +14,7 @@ from typing import ClassVar
 from msgspec import structs
 
 from quizgen.bank.markdown import Inline, PlainText
+from quizgen.core.decoding import convert
 from quizgen.grading.reading import bases
 from quizgen.grading.spec import AnySpec, NumericSpec, ScalarSpec, is_whole_number
 from quizgen.grading.spec import VectorSpec as SeveralNumbers
@@ -344,13 +345,9 @@ def _vector_interactions(spec: vector.ColumnSpec, solved: SolvedPart) -> tuple[I
     """Return a numeric interaction for each component; any multiple is graded manually."""
     if spec.up_to:
         return (solved.as_manual("scale"),)
-    numbers = point.PointSpec(
-        kind="point",
-        values=[*spec.components],
-        exact=True,
-        traps={name: [*values] for name, values in spec.traps.items()},
-    )
-    return _numeric_interactions(numbers, solved, [])
+    numbers = {"kind": "point", "values": spec.components, "traps": spec.traps}
+    rule = spec.stated_rule() or {"exact": True}
+    return _numeric_interactions(convert(numbers | rule, point.PointSpec), solved, [])
 
 
 @_interactions_of.register

@@ -30,6 +30,7 @@ from quizgen.lms.interactions import (
     MatchInteraction,
     NumericInteraction,
     OrderInteraction,
+    PartInteractions,
     TextEntryInteraction,
     needs_manual_grading,
 )
@@ -40,7 +41,7 @@ from quizgen.paper.paper import PaperItem
 from quizgen.question import html
 from quizgen.question.compose import QuestionPart
 from quizgen.question.html import HtmlDialect, display_mathml
-from quizgen.question.inlines import name_inline
+from quizgen.question.inlines import PlacedField, name_inline
 from quizgen.question.solution import PartSolution
 from quizgen.render.html import render_html_fragment
 from quizgen.render.text import inlines_to_plain_text
@@ -137,6 +138,49 @@ def part_html(
 def part_label_html(part: QuestionPart) -> Markup:
     """Return the letter of a part in a line of its own; empty where there is one part."""
     return Markup("<p><strong>({})</strong></p>").format(part.label) if part.label else Markup("")
+
+
+_MARK = re.compile("\N{NULL}(\\d+)\N{NULL}")
+"""Stands for the fields of a part, by its place, until all of the text is there."""
+
+
+def mark_fields(
+    parts: Sequence[PartInteractions],
+    lang: str,
+    source: FigureAddress,
+    placed: Collection[int],
+    *,
+    escape: Callable[[Markup], Markup] = Markup,
+) -> str:
+    """Return the parts with a mark for the fields of each: in its blank, or below its text.
+
+    ``placed`` are the places of parts whose fields stand in a sentence or a cell.
+    """
+    text, said = "", {""}
+    bodies = [part.body for part, _ in parts]
+    for place, (part, found) in enumerate(parts):
+        mark, lost = f"\N{NULL}{place}\N{NULL}", part.shared and part.shared not in bodies
+        bodies.append(part.shared)  # the text around fields stands once, also if its part does not
+        own = part_html(part, found, lang, source, alone=bool(lost))
+        if place not in placed:
+            text += escape(own) + mark
+            continue
+        advice = own.removeprefix(part_label_html(part))
+        text += escape(own) if part.body or advice not in said else ""
+        said.add(advice)
+        blank = PlacedField(part.label).text
+        text = text.replace(blank, blank.rstrip("_") + mark)
+    return text
+
+
+def list_marks(text: str) -> list[int]:
+    """Return the places of parts in the order of their marks."""
+    return [int(mark) for mark in _MARK.findall(text)]
+
+
+def fill_marks(text: str, fields: Sequence[str]) -> Markup:
+    """Return the parts with their fields in place of the marks."""
+    return Markup(_MARK.sub(lambda mark: fields[int(mark[1])], text))  # noqa: S704 - escaped
 
 
 def _options_list(part: QuestionPart, lang: str) -> Markup:

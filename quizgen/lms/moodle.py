@@ -10,10 +10,9 @@ Sources: Moodle documentation, "Moodle XML format" and "Embedded Answers (Cloze)
 from __future__ import annotations
 
 import base64
-import re
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cache, singledispatch
+from functools import cache, partial, singledispatch
 from itertools import groupby
 from math import lcm
 
@@ -39,11 +38,13 @@ from quizgen.lms.manifest import ManifestQuestion
 from quizgen.lms.manifest_writer import manifest_question
 from quizgen.lms.markup import (
     field_html,
+    fill_marks,
     hint_html,
     image_name,
+    list_marks,
+    mark_fields,
     option_html,
     part_html,
-    part_label_html,
     question_images,
     question_mark,
     solution_html,
@@ -55,7 +56,6 @@ from quizgen.lms.markup import (
 )
 from quizgen.lms.weighted_answers import weighted_answers, with_letter
 from quizgen.locale import translate
-from quizgen.question.inlines import PlacedField
 from quizgen.render.layouts import jinja_environment
 
 # Stands in a text until a field takes its place; no text has this character.
@@ -192,34 +192,11 @@ def _cloze_html(question: MoodleQuestion) -> Markup:
         for place, ((part, found), weight) in enumerate(zip(question.parts, weights, strict=True))
         if part.field.near is not None and (field := _embed_in_line(found, weight, lang))
     }
-    text = _place_marks(question, frozenset(placed))
-    if [int(mark) for mark in _MARK.findall(text)] != [*range(len(below))]:
-        text, placed = _place_marks(question, frozenset()), {}
-    fields = {place: placed.get(place, field) for place, field in enumerate(below)}
-    return Markup(_MARK.sub(lambda mark: fields[int(mark[1])], text))  # noqa: S704 - escaped
-
-
-_MARK = re.compile("\N{NULL}(\\d+)\N{NULL}")
-"""Stands for the fields of a part, by its place, until all of the text is there."""
-
-
-def _place_marks(question: MoodleQuestion, placed: Collection[int]) -> str:
-    """Return the parts with a mark for the fields of each: in its blank, or below its text."""
-    lang, text, said = question.item.lang, "", {""}
-    bodies = [part.body for part, _ in question.parts]
-    for place, (part, found) in enumerate(question.parts):
-        mark, lost = f"\N{NULL}{place}\N{NULL}", part.shared and part.shared not in bodies
-        bodies.append(part.shared)  # the text around fields stands once, also if its part does not
-        own = part_html(part, found, lang, _file_address, alone=bool(lost))
-        if place not in placed:
-            text += _escape_braces(own) + mark
-            continue
-        advice = own.removeprefix(part_label_html(part))
-        text += _escape_braces(own) if part.body or advice not in said else ""
-        said.add(advice)
-        blank = PlacedField(part.label).text
-        text = text.replace(blank, blank.rstrip("_") + mark)
-    return text
+    mark = partial(mark_fields, question.parts, lang, _file_address, escape=_escape_braces)
+    text = mark(frozenset(placed))
+    if list_marks(text) != [*range(len(below))]:
+        text, placed = mark(frozenset()), {}
+    return fill_marks(text, [placed.get(place, field) for place, field in enumerate(below)])
 
 
 def _embed_in_line(found: Sequence[Interaction], weight: int, lang: str) -> Markup:

@@ -224,9 +224,7 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
         """
         return _run_steps(self.compile_steps(exact_system()).items(), dict(given), precision)
 
-    def solve_with_misconception(
-        self, trap: str, solved: Values, precision: int = PRECISION
-    ) -> dict[str, Value]:
+    def solve_with_misconception(self, trap: str, solved: Values) -> dict[str, Value]:
         """Return the quantities as somebody with this misconception gets them, in base units.
 
         Raises
@@ -234,7 +232,7 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
         MathError
             If the wrong way has no finite real value for these numbers.
         """
-        return _run_steps(self._trap_plans[trap], dict(solved), precision)
+        return _run_steps(self._trap_plans[trap], dict(solved), PRECISION)
 
     def solve_with_steps(self, wrong: Iterable[ChainStep], solved: Values) -> dict[str, Value]:
         """Return the quantities with some steps replaced: mutations, a student's own earlier value.

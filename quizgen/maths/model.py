@@ -15,9 +15,9 @@ Examples
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from quizgen.core.errors import BankError
 from quizgen.maths.chain import Chain, ChainStep
@@ -27,6 +27,19 @@ if TYPE_CHECKING:
     import sympy
 
     from quizgen.maths.symbolic import FormResolver
+
+T = TypeVar("T")
+
+
+def work_out(compute: Callable[[], T]) -> T:
+    """Return what a computation gives where SymPy evaluates, wherever it stands.
+
+    Solvers are loaded with it around ``diff``, ``integrate`` and the like.
+    """
+    from sympy import evaluate
+
+    with evaluate(True):
+        return compute()
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,8 +5,7 @@ arguments, else arrays. Must never know: a question, a picture, SymPy.
 
 One module per family of formulas, and below them:
 
-* ``typing``: the types that pass between the functions
-* ``domain``: where there is an answer, and what happens where there is none
+* ``domain``: the types that pass, where there is an answer, and what happens where there is none
 * ``ufunc``: how a formula is run over blocks, and by fractions where it is not to be trusted
 * ``double_double``, ``rational``, ``tables``, ...: more digits where they are needed
 

@@ -9,11 +9,19 @@ from __future__ import annotations
 import numpy as np
 from flint import fmpq
 
-from quizgen.numerics.domain import NONNEGATIVE, REAL, Constraint
+from quizgen.numerics.domain import (
+    NONNEGATIVE,
+    REAL,
+    Array,
+    Constraint,
+    Counts,
+    Flags,
+    FloatOrArray,
+    Numbers,
+)
 from quizgen.numerics.quintic import QuinticSolver, cubic_discriminant, solve_cubic
 from quizgen.numerics.rational import ONE, exact_arguments, from_dyadic, to_dyadic
-from quizgen.numerics.typing import Array, Counts, Flags, FloatOrArray, Numbers
-from quizgen.numerics.ufunc import StableUfunc, all_within, smallest_nonzero
+from quizgen.numerics.ufunc import StableUfunc, smallest_nonzero
 
 _UNSURE = 2.0**-40
 _REACH = 2.0**60
@@ -42,23 +50,6 @@ def _distort_in_doubles(x: Array, y: Array, k1: Array, k2: Array) -> tuple[Array
     off = 5 * np.abs(change) + 3 * np.abs(k2) * r2 * r2
     sure = off <= _ALLOWED * (1 + change)
     return tuple(np.where(sure, place * change + place, np.nan) for place in (x, y))
-
-
-def _distort_block(x_d: Array, y_d: Array, x: Array, y: Array, k1: Array, k2: Array) -> bool:
-    """Fill x_d and y_d of a block in place, and return whether one bound trusts all of it.
-
-    The shortcut of a `StableUfunc`: most blocks hold small, finite changes only.
-    """
-    change, r2 = _compute_relative_change(x, y, k1, k2)
-    least, most, top = change.min(), change.max(), r2.max()
-    off = 5 * max(most, -least) + 3 * max(k2.max(), -k2.min()) * top * top
-    tame = all(all_within(k, -_FAR, _FAR) for k in (k1, k2)) and top <= _FAR
-    if not tame or not off <= _ALLOWED * (1 + least):
-        return False
-    for place, found in ((x, x_d), (y, y_d)):
-        np.multiply(place, change, out=found)
-        np.add(found, place, out=found)
-    return True
 
 
 _FAR = 2.0**100
@@ -146,15 +137,6 @@ def _is_beyond_fold(r_d: Array, k1: Array, k2: Array) -> Flags:
     return (r_d > 0) & _scale_equation(r_d, k1, k2)[0].beyond()
 
 
-def _fold_of_barrel(radius: Array, k1: Array, k2: Array) -> bool:
-    """Fill the fold radii of k1 alone, and return whether all of them exist and are moderate."""
-    if k2.size > 1 or k2.item() != 0:
-        return False
-    np.sqrt(-3 * k1, out=radius)
-    np.divide(1.0, radius, out=radius)
-    return bool(radius.min() > 0) and bool(radius.max() < _LARGEST)
-
-
 def _compute_fold_radius(k1: Array, k2: Array) -> Array:
     """Return the fold radius, computed in a unit 2**j in which the deciding terms are near 1.
 
@@ -175,10 +157,9 @@ def _compute_fold_radius(k1: Array, k2: Array) -> Array:
 
 
 _DISTORT = StableUfunc(
-    _distort_in_doubles, (REAL,) * 4, exact=_distort_exact, reach=_FAR, tiny=True, outputs=2,
-    shortcut=_distort_block,
-)  # fmt: skip
-_FOLD = StableUfunc(_compute_fold_radius, (REAL, REAL), shortcut=_fold_of_barrel)
+    _distort_in_doubles, (REAL,) * 4, exact=_distort_exact, reach=_FAR, tiny=True, outputs=2
+)
+_FOLD = StableUfunc(_compute_fold_radius, (REAL, REAL))
 _INVERSE = StableUfunc(
     _invert_radius, (NONNEGATIVE, REAL, REAL), (Constraint("beyond-fold", _is_beyond_fold),)
 )

@@ -1,4 +1,4 @@
-"""What happens when there is no answer.
+"""What goes in and out of array functions, and what happens when there is no answer.
 
 Policy, the same for every function of this package:
 
@@ -20,8 +20,30 @@ from typing import Any
 
 import msgspec
 import numpy as np
+import numpy.typing as npt
 
-from quizgen.numerics.typing import Array, FloatOrArray
+Numbers = npt.ArrayLike
+"""What the public functions take: a number, a list, an array."""
+
+FloatOrArray = Any
+"""What they return: a float for scalar arguments, else an array (masked without an answer)."""
+
+Array = npt.NDArray[np.float64]
+Flags = npt.NDArray[np.bool_]
+Indices = npt.NDArray[np.intp]
+Counts = npt.NDArray[np.int64]
+
+ArrayLike = Array | tuple[Array, ...]
+"""A block of the result, or one block of every result."""
+
+Limits = tuple[float, float]
+"""Least and largest value of a block (NaN when there is one)."""
+
+ArrayFormula = Callable[..., ArrayLike]
+"""A formula on blocks; a block of one element stands for all elements."""
+
+Exact = Callable[..., Any]
+"""The same quantity for fractions; returns fractions, or floats that stand for themselves."""
 
 
 class DomainError(ValueError):
@@ -59,7 +81,6 @@ class Interval(msgspec.Struct, frozen=True):
 
 
 REAL = Interval()
-POSITIVE = Interval(low=0.0, reason="not-positive")
 NONNEGATIVE = Interval(low=0.0, reason="negative", closed=True)
 
 
@@ -67,14 +88,10 @@ class Constraint(msgspec.Struct, frozen=True):
     """A relation between arguments for which there is no answer, such as z = 0.
 
     ``broken(*args)`` flags the elements that have it, and ``reason`` names it.
-
-    ``possible`` takes the limits of the arguments: when it is false, no element breaks the rule
-    and none is looked at.
     """
 
     reason: str
     broken: Callable[..., Any]
-    possible: Callable[..., bool] = lambda *_limits: True
 
 
 def is_defined(result: FloatOrArray) -> Any:

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from quizgen.numerics.typing import Array
+from quizgen.numerics.domain import Array
 
 Double = float | Array
 """One double, or a block of them."""

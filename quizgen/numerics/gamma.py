@@ -10,14 +10,13 @@ from fractions import Fraction
 
 import numpy as np
 
-from quizgen.numerics.domain import Interval
+from quizgen.numerics.domain import Array, FloatOrArray, Interval, Numbers
 from quizgen.numerics.double_double import (
     DoubleDouble,
     power_with_remainder,
     split_exponent,
     two_sum,
 )
-from quizgen.numerics.typing import Array, FloatOrArray, Numbers
 from quizgen.numerics.ufunc import StableUfunc
 
 _INTENSITY = Interval(low=0.0, reason="negative-intensity", closed=True)

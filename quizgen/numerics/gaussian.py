@@ -11,10 +11,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from quizgen.numerics.domain import Interval
+from quizgen.numerics.domain import Array, FloatOrArray, Interval, Numbers
 from quizgen.numerics.double_double import evaluate_polynomial, two_product, two_sum
 from quizgen.numerics.tables import MILLS, MILLS_SCALE, MILLS_SHIFT
-from quizgen.numerics.typing import Array, FloatOrArray, Numbers
 from quizgen.numerics.ufunc import StableUfunc
 
 _PEAK = 0.3989422804014327

@@ -8,9 +8,8 @@ from __future__ import annotations
 import numpy as np
 from flint import fmpq
 
-from quizgen.numerics.domain import REAL
+from quizgen.numerics.domain import REAL, Array, FloatOrArray, Numbers
 from quizgen.numerics.double_double import DoubleDouble, as_pairs
-from quizgen.numerics.typing import Array, FloatOrArray, Numbers
 from quizgen.numerics.ufunc import StableUfunc
 
 

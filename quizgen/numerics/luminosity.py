@@ -9,9 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quizgen.numerics.domain import NONNEGATIVE
+from quizgen.numerics.domain import NONNEGATIVE, Array, FloatOrArray, Numbers
 from quizgen.numerics.tables import read_numeric_table
-from quizgen.numerics.typing import Array, FloatOrArray, Numbers
 from quizgen.numerics.ufunc import StableUfunc
 
 

@@ -14,9 +14,9 @@ import msgspec
 import numpy as np
 from flint import fmpq
 
+from quizgen.numerics.domain import Array, Flags, Indices
 from quizgen.numerics.double_double import DoubleDouble, as_pairs
 from quizgen.numerics.rational import exact_arguments, nearest_double
-from quizgen.numerics.typing import Array, Flags, Indices
 
 _FLAT = 2.0**-12
 """Below this slope, relative to m/x, a single Newton step is not trusted."""

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from fractions import Fraction
 from typing import SupportsIndex
 
 from flint import fmpq, fmpz
 
-from quizgen.numerics.typing import Array
+from quizgen.numerics.domain import Array
 
 ONE = fmpz(1)
 _BITS = 53
@@ -55,11 +54,6 @@ def exact_fraction(value: float) -> fmpq:
     part, exponent = math.frexp(value)
     whole, exponent = fmpz(int(math.ldexp(part, _BITS))), exponent - _BITS
     return fmpq(whole << exponent) if exponent >= 0 else fmpq(whole, ONE << -exponent)
-
-
-def shortest_decimal(value: float) -> fmpq:
-    """Return the decimal that a double prints as: the shortest that rounds to it."""
-    return fmpq(*Fraction(repr(value)).as_integer_ratio())
 
 
 def exact_arguments(args: Sequence[Array], i: SupportsIndex) -> list[fmpq]:

@@ -6,34 +6,30 @@ Formulas see one-dimensional blocks that fit the cache and only elements that ha
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from functools import cache
+from collections.abc import Iterator, Sequence
 
 import msgspec
 import numpy as np
 
-from quizgen.numerics.domain import Constraint, DomainError, Interval
+from quizgen.numerics.domain import (
+    Array,
+    ArrayFormula,
+    Constraint,
+    DomainError,
+    Exact,
+    Flags,
+    FloatOrArray,
+    Interval,
+    Limits,
+    Numbers,
+)
 from quizgen.numerics.rational import exact_arguments, nearest_double
-from quizgen.numerics.typing import Array, ArrayFormula, Exact, Flags, FloatOrArray, Limits, Numbers
 
 BLOCK = 32768
 """Elements per block: temporaries stay near the processor, and calls are few."""
 
-_SETTLED = 16 * 8 * BLOCK
-"""Bytes of more temporaries than a formula has."""
-
 REACH = 2.0**120
 """Magnitudes from its inverse to it are moderate, unless a kernel says otherwise."""
-
-
-@cache
-def warm_allocator(size: int) -> None:
-    """Allocate and free an array of ``size`` bytes, once: later temporaries are then reused.
-
-    Until then the C library returns temporaries from 128 KiB on to the system one by one, which can
-    cost as much as the computation. The array is never written to and takes no memory.
-    """
-    np.empty(size, np.uint8)
 
 
 class StableUfunc(msgspec.Struct, frozen=True):
@@ -55,10 +51,6 @@ class StableUfunc(msgspec.Struct, frozen=True):
         Whether it is trusted for all smaller ones, too.
     outputs : int
         Number of result arrays.
-    shortcut : callable, optional
-        Fills a block of each result from those of the arguments, and tells whether a short look
-        showed that every element has an answer and the formula is trusted, as in nearly all
-        blocks. Where it says no, the block is done again with a look at each argument.
     """
 
     formula: ArrayFormula
@@ -68,7 +60,6 @@ class StableUfunc(msgspec.Struct, frozen=True):
     reach: float = REACH
     tiny: bool = False
     outputs: int = 1
-    shortcut: Callable[..., bool] | None = None
 
     def __call__(self, *args: Numbers) -> FloatOrArray:
         """Return the formula's value for scalars or arrays that broadcast together.
@@ -101,14 +92,11 @@ class StableUfunc(msgspec.Struct, frozen=True):
 
     def _evaluate_blocks(self, args: list[Array], shape: tuple[int, ...]) -> tuple[Array, ...]:
         """Return the results for arrays of ``shape``, block by block."""
-        warm_allocator(_SETTLED)
         columns = [np.empty(math.prod(shape)) for _ in range(self.outputs)]
         masks: list[tuple[int, Flags]] = []
         fixed = [_find_value_limits(arg) if arg.size == 1 else None for arg in args]
         for start, block in _iter_blocks(args, columns[0].size):
             parts = [column[start : start + BLOCK] for column in columns]
-            if self.shortcut is not None and self.shortcut(*parts, *block):
-                continue
             limits = [
                 known or _find_value_limits(arg) for known, arg in zip(fixed, block, strict=True)
             ]
@@ -129,7 +117,7 @@ class StableUfunc(msgspec.Struct, frozen=True):
         """Return flags of the elements without an answer, or None if all have one."""
         if all(
             span.contains(*limit) for span, limit in zip(self.spans, limits, strict=True)
-        ) and not any(rule.possible(*limits) and np.any(rule.broken(*args)) for rule in self.rules):
+        ) and not any(np.any(rule.broken(*args)) for rule in self.rules):
             return None
         bad = np.zeros(max(arg.size for arg in args), dtype=bool)
         for span, arg in zip(self.spans, args, strict=True):
@@ -180,16 +168,6 @@ def smallest_nonzero(sizes: Array) -> float:
 def _find_value_limits(arg: Array) -> Limits:
     """Return the least and the largest value of a block."""
     return float(arg.min()), float(arg.max())
-
-
-def all_within(arg: Array, low: float, high: float) -> bool:
-    """Return whether all values lie between two limits.
-
-    One value is compared without a reduction.
-    """
-    if arg.size == 1:
-        return bool(low <= arg.item() <= high)
-    return bool(low <= arg.min()) and bool(arg.max() <= high)
 
 
 def _assign_where(parts: Sequence[Array], values: Sequence[Array], where: Flags | slice) -> None:

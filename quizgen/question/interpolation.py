@@ -6,6 +6,7 @@ import re
 from collections import deque
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
+from itertools import chain, groupby
 
 from flint import fmpq
 
@@ -95,16 +96,24 @@ class Interpolator:
             If a slot names nothing that may stand there.
         """
         if self.drawn.lists or any(name.endswith("]") for name in self.drawn.words):
-            parts = tuple(map(self._build_data_table, parts))
+            parts = tuple(chain.from_iterable(map(self._place_data_tables, parts)))
         return fill_blocks(parts, self._fill_value, self._fill_program)
 
-    def _build_data_table(self, block: Block) -> Block:
-        """Return the table of these lists for a paragraph ``{{ table: x y }}`` alone."""
-        match block:
-            case Paragraph((Slot(text),)) if text.startswith(TABLE_MARK):
-                names = text.removeprefix(TABLE_MARK).split()
-            case _:
-                return block
+    def _place_data_tables(self, block: Block) -> Iterator[Block]:
+        """Yield a paragraph in pieces where it has ``{{ table: x y }}``, and any other block."""
+        if not isinstance(block, Paragraph):
+            yield block
+            return
+        for is_table, inlines in groupby(block.children, _is_data_table):
+            pieces = tuple(inlines)
+            if is_table:
+                yield from (self._build_data_table(one) for one in slot_names(pieces))
+            elif any(not isinstance(one, PlainText) or one.text.strip() for one in pieces):
+                yield Paragraph(pieces)
+
+    def _build_data_table(self, text: str) -> Block:
+        """Return the table of the lists that a slot names."""
+        names = text.removeprefix(TABLE_MARK).split()
         for name in names:
             self._require_list(name, text)
         columns = [self.drawn.list_texts(name) for name in names]
@@ -292,7 +301,7 @@ class Interpolator:
         """Return a list with its unit once, or one of its values."""
         drawn, (listed, _, place) = self.drawn, name.partition("[")
         if name.startswith(TABLE_MARK):
-            what = "stands alone in a paragraph, in a question that draws lists"
+            what = "stands in a paragraph, in a question that draws lists"
             blank = f"{{{{ {name} }}}}"
             raise self.format_problem(f"{blank} {what}", "QG158", TEXT, blank)
         if place:
@@ -332,6 +341,11 @@ class Interpolator:
         """Return an error at a place of the language file."""
         file = self.drawn.template.path / f"{self.lang}.md"
         return BankError(what, rule=rule, file=file, place=place)
+
+
+def _is_data_table(inline: Inline) -> bool:
+    """Return whether a piece of a paragraph stands for a table of lists."""
+    return isinstance(inline, Slot) and inline.name.startswith(TABLE_MARK)
 
 
 def unbreakable_groups(parts: Iterable[Inline]) -> Iterator[tuple[Inline, ...]]:

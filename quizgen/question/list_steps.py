@@ -121,11 +121,11 @@ def _write_sum(name: str, drawn: Variant, written: WrittenLists) -> Expr:
 
 def _write_mean(name: str, drawn: Variant, written: WrittenLists) -> Expr:
     """Return the mean of a list: its sum in full over the number of values."""
-    return Call("div", (_write_sum(name, drawn, written), _count(name, drawn)))
+    return Call("div", (_write_sum(name, drawn, written), _count_values(name, drawn)))
 
 
-def _count(name: str, drawn: Variant, less: int = 0) -> Num:
-    """Return the number of values in a list, less so many."""
+def _count_values(name: str, drawn: Variant, less: int = 0) -> Num:
+    """Return how many values a drawn list has, minus ``less``: the 1 of n - 1."""
     return Num(Fraction(len(drawn.lists[name]) - less))
 
 
@@ -148,7 +148,7 @@ def _write_variance(less: int) -> Callable[[str, Variant, WrittenLists], Expr]:
             else Call("pow", (Call("sub", (term, centre)), _TWO))
             for term in _choose_terms(name, drawn, written) if isinstance(term, Sym)
         ]  # fmt: skip
-        return Call("div", (Call("add", tuple(squares)), _count(name, drawn, less)))
+        return Call("div", (Call("add", tuple(squares)), _count_values(name, drawn, less)))
 
     return rule
 
@@ -162,7 +162,7 @@ def _write_root(less: int) -> Callable[[str, Variant, WrittenLists], Expr]:
 _RULES: dict[str, Callable[[str, Variant, WrittenLists], Expr]] = {
     "list_sum": _write_sum,
     "mean": _write_mean,
-    "len": lambda name, drawn, _written: _count(name, drawn),
+    "len": lambda name, drawn, _written: _count_values(name, drawn),
     "var": _write_variance(1),
     "pvar": _write_variance(0),
     "sd": _write_root(1),

@@ -1,6 +1,6 @@
 """Outputs of papers: one module per format, each with ``render(paper, kind)``.
 
-The formula sheet has modules of its own, ``sheet_html`` and ``sheet_pdf``.
+The formula sheet has ``sheet_pdf`` for itself.
 
 In: a ``Paper`` or a ``Sheet``. Out: the bytes of a file. Must never know: how a paper was chosen,
 drawn or marked.
@@ -90,6 +90,6 @@ def render_sheet(sheet: FormulaSheet, output: str) -> bytes:
 
             return sheet_pdf.render_sheet_pdf(sheet)
         case _:
-            from quizgen.render import sheet_html
+            from quizgen.render import html
 
-            return sheet_html.render_sheet_html(sheet)
+            return html.render_sheet_html(sheet)

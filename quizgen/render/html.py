@@ -1,8 +1,9 @@
-"""A paper as one self-contained HTML page: MathML, embedded fonts, no network."""
+"""Pages that stand alone, of papers and formula sheets: MathML, embedded fonts, no network."""
 
 from __future__ import annotations
 
 from functools import cache, partial
+from importlib.resources import files
 from pathlib import Path
 
 import jinja2
@@ -11,6 +12,7 @@ from markupsafe import Markup
 from quizgen.figures.inks import write_theme_css
 from quizgen.locale import format_amount, format_marks, get_language, language_css, translate
 from quizgen.paper.paper import Paper
+from quizgen.question.formula_sheet import NOTES, FormulaSheet
 from quizgen.question.html import (
     OURS,
     HtmlDialect,
@@ -119,3 +121,14 @@ def render_paper_html(paper: Paper, kind: str) -> bytes:
         ``exam`` or ``solutions``.
     """
     return render_html_page("paper.html.j2", paper.langs, paper=paper, kind=kind)
+
+
+@cache
+def sheet_css() -> str:
+    """Return the style of formulas, which pages of a server add to their own, too."""
+    return (files("quizgen.render") / "pages" / "sheet.css").read_text(encoding="utf-8")
+
+
+def render_sheet_html(sheet: FormulaSheet) -> bytes:
+    """Return a formula sheet as an HTML page."""
+    return render_html_page("sheet.html.j2", sheet.langs, sheet_css(), sheet=sheet, notes=NOTES)

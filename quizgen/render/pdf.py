@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -29,7 +29,6 @@ from quizgen.render.answer_fields import (
     typeset_ruled_lines,
     typeset_text,
 )
-from quizgen.render.cover import list_cover_facts, typeset_house_rules
 from quizgen.render.layouts import MOST_ROWS
 from quizgen.render.solved_parts import typeset_remarks, typeset_solved_part
 from quizgen.render.typst_document import (
@@ -398,3 +397,45 @@ def render_paper_pdf(paper: Paper, kind: str) -> bytes:
         If Typst refuses the document or a font is missing.
     """
     return compile_pdf(typst_sources(paper, kind))
+
+
+def list_cover_facts(paper: Paper) -> list[tuple[str, str]]:
+    """Return pairs of a word of the section ``paper`` and its value as Typst code."""
+    if paper.cover is None:
+        return []
+    rows = []
+    for name in paper.cover.facts:
+        said = dict.fromkeys(
+            replace_unprintable(paper.cover.pick_fact(name, lang)) for lang in paper.langs
+        )
+        shown = [f"#{typst_literal(text)};" for text in said]
+        value = join_languages(paper.langs, shown) if len(said) > 1 else shown[0]
+        rows.append((name, f"[{value}]"))
+    return rows
+
+
+def typeset_house_rules(paper: Paper) -> list[str]:
+    """Return Typst source of the rules of the room, and of the line to sign on."""
+    if paper.cover is None:
+        return []
+    found = []
+    rules = paper.cover.rules
+    spoken = [lang for lang in paper.langs if rules.get(lang)]
+    lists = {lang: _typeset_list(rules[lang]) for lang in spoken}
+    if not lists and any(rules.values()):
+        lists = {paper.langs[0]: _typeset_list(next(filter(None, rules.values())))}
+    if lists:
+        found.append(f"#block(above: 0.9em)[{stack_languages([*lists], lists.values())}]")
+    if paper.cover.signature:
+        label = translate_all(paper.langs, "paper.signature")
+        found.append(
+            "#v(1.4em)\n#grid(columns: (auto, 1fr), column-gutter: 0.6em, align: bottom, "
+            f"[{label}], line(length: 100%, stroke: 0.5pt))"
+        )
+    return found
+
+
+def _typeset_list(lines: Iterable[str]) -> str:
+    """Return Typst source of lines as a list."""
+    rows = "".join(f"[#{typst_literal(replace_unprintable(line))};]," for line in lines)
+    return f"#list({rows})"

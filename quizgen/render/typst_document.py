@@ -275,8 +275,8 @@ def _has_glyph(character: str) -> bool:
 
 
 @cache
-def _make_scratch_compiler() -> Any:
-    """Return a Typst compiler for documents that nobody reads."""
+def _make_empty_compiler() -> Any:
+    """Return a Typst compiler for empty documents, which push older ones out of Typst's memory."""
     import typst
 
     return typst.Compiler(b"", font_paths=_load_font_collection())
@@ -292,7 +292,7 @@ def evict_cache(documents: int) -> None:
     """
     _check_not_forked()
     for _ in range(documents):
-        _make_scratch_compiler().compile(b"", format="pdf")
+        _make_empty_compiler().compile(b"", format="pdf")
 
 
 def document_files(layout: str, body: str, package: str = "quizgen.render") -> dict[str, bytes]:

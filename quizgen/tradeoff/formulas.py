@@ -20,7 +20,6 @@ from quizgen.maths.number_systems import array_system, compile_expr
 from quizgen.maths.tree import Expr, substitute
 from quizgen.numerics.distortion import inverse_radius
 from quizgen.numerics.gaussian import inverse_upper_tail
-from quizgen.numerics.projection import pixel_coordinate
 from quizgen.tradeoff import lines
 from quizgen.tradeoff.lines import Column
 
@@ -374,7 +373,7 @@ FORMULAS = (
             _fill_column(2, u),
             _fill_column(320, u),
         ],
-        stable=np.vectorize(pixel_coordinate, otypes=[np.float64]),
+        stable=lines.pixel,
         decimal=True,
     ),
     Formula(

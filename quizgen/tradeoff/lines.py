@@ -8,13 +8,14 @@ defined.
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from quizgen.numerics.domain import Array
 from quizgen.numerics.double_double import as_pairs
-from quizgen.numerics.typing import Array
 
 Column = npt.NDArray[np.floating[Any]]
 """One quantity of many inputs, in the precision of a way of computing."""
@@ -72,6 +73,16 @@ def falloff(r: Column, f: Column) -> Column:
     q = r * r
     p = q / (q + f * f)
     return p * (2 - p)
+
+
+def _compute_decimal_pixel(*row: float) -> float:
+    """Return o + f x/(s z) rounded once, for the decimals that the numbers print as."""
+    f, s, x, z, o = (Fraction(repr(value)) for value in row)
+    return float(o + f * x / (s * z))
+
+
+pixel = np.vectorize(_compute_decimal_pixel, otypes=[np.float64])
+"""Pixel coordinates from f, s, x, z and o: 2 mm, 5 um, -1, 2 and 320 give 120."""
 
 
 def hue(R: Column, G: Column, B: Column) -> Column:

@@ -20,7 +20,7 @@ from quizgen.question.formula_sheet import NOTES, FormulaSheet, SheetFormula, co
 from quizgen.question.html import blocks_to_html, display_to_html, inlines_to_html
 from quizgen.question.inlines import TypesetMaths
 from quizgen.render import render_sheet
-from quizgen.render.sheet_html import sheet_css
+from quizgen.render.html import sheet_css
 from quizgen.web.moving import MovingView, view_formula_figure
 from quizgen.web.question_view import Html
 from quizgen.web.state import ServerState

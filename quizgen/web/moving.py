@@ -94,11 +94,11 @@ class MovingFigure:
             (scale, {name: one.stretch(scale) for name, one in self.quantities.items()})
             for scale in self.scales
         ]
-        return max(sized, key=lambda pair: _count_found(pair[1], given))
+        return max(sized, key=lambda pair: _count_matches(pair[1], given))
 
 
-def _count_found(quantities: Mapping[str, Quantity], given: Given) -> int:
-    """Return how many quantities begin at those of a question."""
+def _count_matches(quantities: Mapping[str, Quantity], given: Given) -> int:
+    """Return for how many quantities the question gives a number that the figure can begin at."""
     return sum(one.find(name, given) is not None for name, one in quantities.items())
 
 

@@ -116,6 +116,15 @@ MODEL = Model(
            "point": Step(w, binomial(n, 2)*p**2*(1 - p)**(n - 2))},
 )
 """,
+    "edge": """
+a, b, s, t, phi = symbols("a b s t phi")
+length = sqrt(a**2 + 1)*sqrt(b**2 + 4)
+MODEL = Model(
+    given={a: "", b: ""},
+    steps=(Step(s, a*b + 2), Step(t, length), Step(phi, acos(s/t), "rad")),
+    traps={"lengths": Step(s, length), "first": Step(s, a*b)},
+)
+""",
 }
 
 DRAWS = {
@@ -126,6 +135,7 @@ DRAWS = {
     "solutions": "p = { range = [1, 9, 1] }\nq = { range = [2, 9, 1] }",
     "complex": "a = { range = [1, 9, 1] }\nb = { range = [2, 9, 1] }",
     "statistics": 'n = { range = [5, 30, 1] }\np = { pick = ["0.1", "0.2", "0.3", "0.4"] }',
+    "edge": "a = { range = [3, 9, 1] }\nb = { range = [2, 4, 1] }",
 }
 
 PARTS = {
@@ -134,7 +144,7 @@ PARTS = {
     "factors": ['{ kind = "expression", of = "h", form = "factored" }'],
     "matrix": [
         '{ kind = "matrix", of = "P" }', '{ kind = "number", of = "d", exact = true }',
-        '{ kind = "matrix", of = "I" }', '{ kind = "vector", of = "v", up_to = "scale" }',
+        '{ kind = "matrix", of = "I", decimals = 3 }', '{ kind = "vector", of = "v", up_to = "scale" }',
     ],
     "solutions": [
         '{ kind = "interval", of = "S" }', '{ kind = "interval", of = "R" }',
@@ -148,19 +158,20 @@ PARTS = {
         '{ kind = "number", of = "t", sigfigs = 4 }', '{ kind = "number", of = "w", sigfigs = 4 }',
         '{ kind = "number", of = "s", sigfigs = 4 }',
     ],
+    "edge": ['{ kind = "quantity", of = "phi", unit = "rad", decimals = 3 }'],
 }  # fmt: skip
 
 STEMS = {"derivative": "Differentiate {{ f }}.", "factors": "Factor {{ g }}."}
 
 STEPS = {
     "derivative": "df D", "antiderivative": "F", "factors": "h", "matrix": "P d I v",
-    "solutions": "S R T eq", "complex": "w r u z", "statistics": "t w s",
+    "solutions": "S R T eq", "complex": "w r u z", "statistics": "t w s", "edge": "s t phi",
 }  # fmt: skip
 
 TRAPS = {
     "derivative": "first power", "antiderivative": "sign", "factors": "signs",
     "matrix": "turned plus", "solutions": "closed radius signs", "complex": "squares",
-    "statistics": "freedom point",
+    "statistics": "freedom point", "edge": "lengths first",
 }  # fmt: skip
 
 

@@ -12,12 +12,14 @@ from flint import fmpq
 from symbolic_bank import SOLVERS, write_bank
 
 from quizgen.bank.bank import Bank
+from quizgen.bank.solvers import load_chain
 from quizgen.bank.variant import draw_variant
 from quizgen.core.errors import BankError
 from quizgen.kinds.grade import grade_answer
 from quizgen.lint.template_checks import lint_template
 from quizgen.maths.model import Model, Step
 from quizgen.maths.notation import format_tree
+from quizgen.maths.number_systems import evaluate
 from quizgen.maths.numbers import to_float
 from quizgen.question.part_context import ask_part
 
@@ -122,6 +124,9 @@ def test_a_determinant_and_an_inverse_are_computed_from_the_matrix(bank):
     assert drawn.values["d"] == int(matrix.det())
     rows = matrix.inv().tolist()
     assert note(spec, "; ".join(", ".join(map(str, row)) for row in rows))[0] == "correct"
+    rounded = "; ".join(", ".join(f"{float(x):.3f}" for x in row) for row in rows)
+    assert note(spec, rounded)[0] == "correct"
+    assert note(spec, rounded.replace(".", ".1", 1))[0] == "partial"
 
 
 def test_a_multiple_of_a_vector_counts_if_asked(bank):
@@ -179,6 +184,42 @@ def test_quantiles_sums_and_integrals_are_those_of_scipy(bank):
     integral, _ = scipy.integrate.quad(lambda k: sympy.exp(-p * k * k), 0, 1)
     assert s == pytest.approx(integral, rel=1e-12)
     assert drawn.template.chain.certainties == {"t": "ball", "w": "ball", "s": "checked"}
+
+
+def test_sympy_computes_where_formulas_stay_as_they_are_written(tmp_path):
+    (tmp_path / "mixed.py").write_text("""
+from sympy import *
+from quizgen.maths.model import Model, Step
+a, x = symbols("a x")
+with evaluate(False):
+    MODEL = Model(given={a: ""}, free=("x",), steps=(
+        Step("d", diff(a*x**3 + cos(2*x), x)),
+        Step("i", integrate(a*x**2 + 1, x)),
+        Step("m", Matrix([[a, 2], [1, 3]]).det() + 1*a),
+        Step("s", solve(a*x - 6, x)[0]),
+        Step("e", expand((x + a)**2)),
+    ))
+""")
+    chain, _ = load_chain(tmp_path, "mixed")
+    steps = {step.name: step.expr for step in (*chain.forms, *chain.steps)}
+    assert format_tree(steps["m"]).endswith("1*a")
+    at = {
+        name: to_float(evaluate(tree, {"a": fmpq(5), "x": fmpq(2)})) for name, tree in steps.items()
+    }
+    wanted = {"d": 60 - 2 * math.sin(4), "i": 40 / 3 + 2, "m": 18, "s": 6 / 5, "e": 49}
+    assert at == pytest.approx(wanted)
+
+
+def test_a_mistake_without_a_certain_value_is_left_out(bank):
+    """``acos`` of a product of roots over itself: a ball across 1."""
+    seen = set()
+    for seed in range(8):
+        drawn, spec = asked(bank, "edge", seed=seed)
+        a, b = (int(drawn.shown[name]) for name in "ab")
+        angle = math.acos((a * b + 2) / math.hypot(a, 1) / math.hypot(b, 2))
+        assert note(spec, f"{angle:.3f} rad") == ("correct", "")
+        seen |= {*spec.traps}
+    assert "first" in seen
 
 
 def test_what_sympy_needs_evaluated_is_computed():

@@ -83,6 +83,7 @@ def test_a_bank_begun_in_other_languages_is_sound(tmp_path):
     assert (tmp_path / "again" / "exam.html").read_text("utf-8") == page
 
 
+@pytest.mark.slow
 def test_papers_speak_it_without_being_asked(paper):
     page = (paper / "solutions.html").read_text("utf-8")
     assert '<html lang="fr"' in page
@@ -130,6 +131,7 @@ meaning.fr = "La distance parcourue par unité de temps."
 """
 
 
+@pytest.mark.slow
 def test_a_blueprint_and_words_to_learn_need_no_english(tmp_path):
     quizgen(tmp_path, "new", "bank", "trajets", "--lang", "fr")
     (tmp_path / "plan.toml").write_text(PLAN, "utf-8")
@@ -251,6 +253,7 @@ def test_a_language_from_right_to_left_is_written_so(tmp_path):
         )  # the mark keeps a unit to the right of its number
 
 
+@pytest.mark.slow
 def test_lint_advises_once_which_words_to_begin_with(tmp_path):
     quizgen(tmp_path, "new", "bank", "viajes", "--lang", "pt-BR")
     lint = ("lint", "--bank", "viajes", "--trust", "--seeds", "3")

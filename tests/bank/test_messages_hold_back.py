@@ -8,7 +8,7 @@ from sweep import spread, together
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.grading.judge import explain_verdict, judge_answer
-from quizgen.grading.options import PLAIN
+from quizgen.grading.options import GradingOptions
 from quizgen.grading.spec import NumericSpec
 from quizgen.kinds.choice import ChoiceSpec
 from quizgen.kinds.code import CodeSpec
@@ -41,7 +41,7 @@ def test_nonsense_is_answered_without_the_answer(name):
     template = builtin_bank().template(name)
     for spec in compose_question(template, "1", "en")[1].specs:
         for typed in NONSENSE:
-            verdict = judge_answer(spec, typed, PLAIN)
+            verdict = judge_answer(spec, typed, GradingOptions())
             for lang in ("en", "bn", "de"):
                 message = explain_verdict(spec, verdict, lang, reveal=False).message.lower()
                 assert [word for word in wanted_words(spec) if word in message] == [], typed
@@ -76,7 +76,7 @@ def holds(message: str, words: str) -> bool:
 def test_a_wrong_pick_is_answered_without_the_right_one(name):
     for spec in compose_question(builtin_bank().template(name), "1", "en")[1].specs:
         for typed, wanted in wrong_picks(spec):
-            verdict = judge_answer(spec, typed, PLAIN)
+            verdict = judge_answer(spec, typed, GradingOptions())
             message = explain_verdict(spec, verdict, "en", reveal=False).message
             assert [words for words in wanted if holds(message, words)] == [], typed
 
@@ -87,7 +87,7 @@ def test_the_reasons_are_said_in_the_end():
     assert specs
     for spec in specs:
         typed = "; ".join(["zzzzzzz"] * len(spec.gaps()))
-        verdict = judge_answer(spec, typed, PLAIN)
+        verdict = judge_answer(spec, typed, GradingOptions())
         early, late = (
             explain_verdict(spec, verdict, "en", reveal=reveal).message for reveal in (False, True)
         )

@@ -4,7 +4,6 @@ import math
 from dataclasses import replace
 from fractions import Fraction
 
-import colour
 import numpy as np
 import pytest
 from scipy import constants, ndimage
@@ -131,6 +130,8 @@ def straight(x, *points):
 
 def reference(temperature, *, filtered):
     """The table of docs/camera.md with colour-science's Planck and V(lambda), in steps of 0.1 nm."""
+    import colour  # two seconds of each process that only looks which tests there are
+
     nm = np.arange(380.0, 1100.05, 0.1)
     curve = colour.colorimetry.SDS_LEFS_PHOTOPIC["CIE 1924 Photopic Standard Observer"]
     eye = straight(nm, *zip(curve.wavelengths, curve.values, strict=True))
@@ -169,6 +170,8 @@ def test_sites_see_what_the_integral_says(temperature, filtered):
 
 
 def test_plancks_law_is_that_of_colour_science():
+    import colour
+
     nm = np.array([450.0, 560.0, 900.0])
     theirs = colour.colorimetry.planck_law(nm * 1e-9, 2856.0)
     ours = colour_filters.lamp_spectrum(2856.0)[(nm - 380).astype(int)]

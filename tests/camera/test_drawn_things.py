@@ -59,76 +59,17 @@ def test_nothing_is_drawn_outside_of_where_it_is_looked_for(monkeypatch, shape, 
             assert np.array_equal(near, drawn(thing, height=150))
 
 
-def of_cells(monkeypatch, height, width):
-    monkeypatch.setattr(rasterizer, "CELL", width)
-    monkeypatch.setattr(rasterizer, "cell_height", lambda _: height)
-
-
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("angle", [0.0, 0.4])
-def test_cells_leave_no_seams(monkeypatch, shape, angle):
-    """In one piece and in small ones that a thing covers in part, entirely or not: the same bits."""
+def test_bands_leave_no_seams(monkeypatch, shape, angle):
+    """In one piece and in bands of four rows: the same bits."""
     thing = SceneObject(
         shape, **SHAPES[shape], angle=angle, texture="rings", colour=(0.3, 0.2, 0.1)
     )
     upon = SceneObject("box", Length(3.0), width=Length(12.0), height=Length(14.0), depth=3.0)
     whole = drawn(thing, upon)
-    of_cells(monkeypatch, 4, 7)
+    monkeypatch.setattr(rasterizer, "_BAND", 160)
     assert np.array_equal(drawn(thing, upon), whole)
-
-
-LARGE = {
-    "box": {"width": Length(300.0), "height": Length(170.0)},
-    "disc": {"radius": Length(190.0)},
-    "ellipse": {"width": Length(420.0), "height": Length(220.0)},
-    "grid": {"cell": Length(230.0), "stroke": Length(110.0)},
-    "blades": {"radius": Length(200.0), "stroke": Length(120.0)},
-    "polygon": {"points": tuple((25 * x, 25 * y) for x, y in (*CORNERS, (0.5, -1.0)))},
-    "full": {},
-}
-
-
-@pytest.mark.parametrize("shape", LARGE)
-@pytest.mark.parametrize("texture", ["plain", "checker"])
-@pytest.mark.parametrize("place", [(0.0, 0.0), (37.3, -24.6), (-120.0, 80.5)])
-def test_no_edge_is_where_none_is_looked_for(monkeypatch, shape, texture, place):
-    """As if every cell had one; and there are cells that a thing covers as a whole, or not at all."""
-    where, seen = {"x": Length(place[0]), "y": Length(place[1])}, []
-    classify = rasterizer.classify_cells
-    of_cells(monkeypatch, 24, 16)
-    for angle, count in ((0.0, 1), (0.4, 2), (2.1, 5)):
-        thing = SceneObject(
-            shape, **where, **LARGE[shape], angle=angle, count=count, texture=texture
-        )
-        upon = SceneObject("disc", radius=Length(70.0), depth=3.0, colour=(0.3, 0.2, 0.1))
-        with monkeypatch.context() as patch:
-            patch.setattr(
-                rasterizer,
-                "classify_cells",
-                lambda *args: seen.append(classify(*args)) or seen[-1],
-            )
-            found = drawn(thing, upon, width=520, height=410)
-            patch.setattr(
-                rasterizer, "classify_cells", lambda away, _: np.ones(away.shape, np.int8)
-            )
-            assert np.array_equal(found, drawn(thing, upon, width=520, height=410))
-    assert any((one == rasterizer.ALL).any() for one in seen[::2])
-    assert shape == "full" or any((one == rasterizer.NOTHING).any() for one in seen[::2])
-
-
-def test_nothing_is_laid_upon_what_was_never_written(monkeypatch):
-    """A background that is seen nowhere is not drawn, unless something else is drawn upon it."""
-    bare = rasterizer._allocate_layer
-
-    def unwritten(*args):
-        layer = bare(*args)
-        layer.colour[...] = np.nan
-        return layer
-
-    monkeypatch.setattr(rasterizer, "_allocate_layer", unwritten)
-    disc = SceneObject("disc", radius=Length(9.0), depth=5.0)
-    for depth in (3.0, 7.0):
-        assert np.isfinite(drawn(disc, SceneObject("full", depth=depth, texture="ramp"))).all()
 
 
 def test_the_very_middle_of_an_ellipse_is_covered():

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from sweep import together
 
-from quizgen.camera import Camera, Length, PreparedScene, Scene, SceneObject, View
-from quizgen.camera.padding import crop_in_place
+from quizgen.camera import Camera, Length, PreparedScene, Scene, SceneObject
 from quizgen.camera.simulation import run_plan
 
 WIDTH, HEIGHT, BESIDE = 120, 90, 60
@@ -135,17 +134,6 @@ def test_what_is_left_out_leaves_the_frame():
     )
     assert whole.values.shape == bare.values.shape == (HEIGHT, WIDTH, 3)
     assert np.array_equal(bare.values, taken(CAMERA, wall()))
-
-
-def test_rows_moved_together_are_the_middle():
-    """In the memory of the wider picture, so no row may be written over before it is read."""
-    view = View(Scene(7, 5), CAMERA)
-    for beside in (1, 3, 9):
-        wide = np.random.default_rng(beside).random((5 + 2 * beside, 7 + 2 * beside, 3))
-        middle = wide[beside:-beside, beside:-beside].copy()
-        moved = crop_in_place(wide, view)
-        assert np.array_equal(moved, middle)
-        assert np.shares_memory(moved, wide)
 
 
 def test_what_was_drawn_is_not_written_over():

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from PIL import Image
-from sweep import together
+from sweep import spread, together
 
 from quizgen.camera import PreparedScene, SceneError, plan_budget
 from quizgen.camera.comparison import amplify_difference
@@ -206,7 +206,7 @@ def invoke(*arguments):
     return result.output
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", spread(NAMES, 2))
 def test_shipped_scenes(name, tmp_path):
     """Each runs, keeps its bound and writes the same bytes twice; what it asks about is seen."""
     out = tmp_path / "photo.png"

@@ -26,7 +26,7 @@ from quizgen.camera.effects import (
     vignetting,
 )
 from quizgen.camera.effects.normalisation import stretch_range
-from quizgen.camera.pixels.codes import count_histogram, to_8bit
+from quizgen.camera.pixels.codes import to_8bit
 from quizgen.camera.pixels.hsv import edit_hsv, rgb_to_hsv
 from quizgen.camera.pixels.noise import effect_random, poisson_quantiles
 from quizgen.camera.pixels.tiles import apply_tilewise
@@ -383,8 +383,3 @@ def test_normalisation_of_the_notes():
     after, before_counts, after_counts = picture_sets.make_normalised(flat(0.5), 0.25, 0.45)
     assert (after == 1).all()
     assert before_counts.sum() == after_counts.sum() == after_counts[-1]
-
-
-def test_histogram_of_codes_has_one_bin_per_level():
-    codes = np.arange(256, dtype=np.uint8).reshape(16, 16)
-    assert count_histogram(codes, top=255).tolist() == [1] * 256

@@ -42,6 +42,7 @@ def note_of(collection, key):
     return collection.get_note(number)
 
 
+@pytest.mark.slow
 def test_every_note_and_card_arrives(deck, packed, collection, tmp_path):
     log = bring_in(collection, packed, tmp_path)
     assert log.found_notes == len(log.new) == len(deck.notes)

@@ -20,6 +20,7 @@ from PIL import Image
 
 from quizgen.classes import generation
 from quizgen.classes.class_folder import ClassFolder
+from quizgen.classes.scanning import pictures
 from quizgen.classes.scanning.pages import PageReading, PartReading
 from quizgen.classes.scanning.scan_folder import ScanFolder
 
@@ -349,15 +350,20 @@ def hostile_files(root) -> dict[str, str]:
         vast.pages[0].Resources = pikepdf.Dictionary(XObject=pikepdf.Dictionary(I=image))
         vast.pages[0].Contents = vast.make_stream(b"q 14000 0 0 14000 0 0 cm /I Do Q")
         vast.save(root / "vast.pdf")
+    frames = [Image.new("L", (300, 400), 255)]
+    frames[0].save(root / "long.tif", save_all=True, append_images=frames)
     return {
         "cut.jpg": "is damaged (Truncated", "large.png": "more than 120 million pixels", "wide.png": "more than 120 million pixels",
         "text.pdf": "is no sound PDF", "text.jpg": "is no sound picture", "notes.docx": "is no picture of a page",
         "empty.tif": "is no sound picture", "folder.pdf": "is no file", "pipe.png": "is no file", "locked.pdf": "is locked by a password",
-        "vast.pdf": "more than 120 million pixels", "gone.pdf": "No such file",
+        "vast.pdf": "more than 120 million pixels", "long.tif": "has 2 pages", "gone.pdf": "No such file",
     }  # fmt: skip
 
 
-def test_files_that_are_no_scans_are_named_and_stop_no_others(folder, blanks, tmp_path, capsys):
+def test_files_that_are_no_scans_are_named_and_stop_no_others(
+    folder, blanks, tmp_path, capsys, monkeypatch
+):
+    monkeypatch.setattr(pictures, "MOST_PAGES", 1)
     expected = hostile_files(tmp_path)
     save_scan(blanks["7"], tmp_path / "a", "200")
     assert run("class", "scan", folder, *(tmp_path / name for name in (*expected, "a.jpg"))) == 1

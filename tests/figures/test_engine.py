@@ -309,6 +309,7 @@ def digests(folder, **environment):
     return done.stdout.splitlines()
 
 
+@pytest.mark.slow
 def test_a_hostile_matplotlibrc_changes_nothing_and_pyplot_is_never_loaded(tmp_path):
     rc = tmp_path / "matplotlibrc"
     rc.write_text(HOSTILE)
@@ -317,6 +318,11 @@ def test_a_hostile_matplotlibrc_changes_nothing_and_pyplot_is_never_loaded(tmp_p
                       MATPLOTLIBRC=str(rc))  # fmt: skip
     assert usual == hostile
     assert len({line.split()[1] for line in usual}) == len(usual) >= 7
+
+
+def test_all_code_that_decides_what_is_drawn_is_known():
+    for name in engine._CODE:
+        assert engine._list_python_files(engine._PACKAGE / name), name
 
 
 # Anything that matplotlib draws

@@ -416,6 +416,7 @@ describe_question_figure(drawn, "en", quiz=True)
 """
 
 
+@pytest.mark.slow
 def test_the_first_figure_of_a_question_loads_matplotlib_and_its_words_do_not():
     assert not {"matplotlib", "PIL"} & loaded(QUESTION)
     drawing = loaded(f'{QUESTION}\ndraw_question_figure(drawn, "en", quiz=True)')

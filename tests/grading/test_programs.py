@@ -208,6 +208,7 @@ def test_ordinary_programs_may_run(text):
         (">>> def halve(image, by):\n...     return image // by\n", "", 1),
         (SPEC["traps"]["rounded"], "trap:rounded", Fraction(1, 2)),
         ("def halve(image, by):\n    return image / by\n", "program-dtype", Fraction(1, 4)),
+        ("def halve(image, by):\n    return np.uint16(image // by)\n", "program-dtype", Fraction(1, 4)),
         ("def halve(image, by):\n    return image[0] // by\n", "program-shape", Fraction(1, 4)),
         ("def halve(image, by):\n    return image\n", "program-values", Fraction(1, 4)),
         ("def halve(image, by):\n    return 3\n", "program-no-array", Fraction(1, 4)),
@@ -267,12 +268,14 @@ def test_a_process_that_is_locked_can_do_nothing():
         "memory": "bytearray(2**30)",
     }
     script = (
-        "import os, sys, socket\n"
+        "import ctypes, os, sys, socket\n"
         f"sys.path.insert(0, {str(programs.RUNNER.parent)!r})\n"
         "import program_runner\nprogram_runner.lock()\n"
         f"for name, text in {tries!r}.items():\n"
         "    try:\n        eval(text)\n    except (OSError, MemoryError):\n        continue\n"
         "    os.write(1, name.encode() + b' ')\n"
+        "gained = b'' if ctypes.CDLL(None).prctl(39, 0, 0, 0, 0) else b'privileges'\n"
+        "os.write(1, gained)\n"
     )
     done = subprocess.run(
         [sys.executable, "-I", "-c", script], capture_output=True, env={}, check=True

@@ -44,17 +44,18 @@ tier = "A"
 a = {{ {draw} }}
 [[part]]
 points = {points}
-answer = {{ kind = "tf", true = "a > 4" }}
-"""
+answer = {{ {answer} }}
+{more}"""
 PROSE = "# {title}\nLet $a$ = {{{{ a }}}}.\n\n## why\nCount.\n"
 
 
 def a_bank(
-    root, *, name="compare", title="A comparison", draw="pick = [2, 3, 5, 7]", points="1", topic=""
-):
+    root, *, name="compare", title="A comparison", draw="pick = [2, 3, 5, 7]", points="1", topic="",
+    answer='kind = "tf", true = "a > 4"', more="",
+):  # fmt: skip
     folder = root / "templates" / name
     folder.mkdir(parents=True)
-    text = TEMPLATE.format(draw=draw, points=points)
+    text = TEMPLATE.format(draw=draw, points=points, answer=answer, more=more)
     (folder / "template.toml").write_text(
         text.replace("algebra", topic) if topic else text, "utf-8"
     )
@@ -161,6 +162,16 @@ def test_a_condition_counts_one_if_it_holds(tmp_path, formula, value):
         ({"points": "0"}, "part 1: points: 0 is not more than 0"),
         ({"points": '"1e100000000"'}, "part 1: points: '1e100000000' is no number"),
         ({"topic": "<script>"}, "topic: '<script>' is no name"),
+        ({"draw": "normal = [1], size = 3, decimals = 1"}, "draw.a.normal: is [mean, standard dev"),
+        (
+            {"answer": 'kind = "order", steps = ["b", "c"], before = [["b", "d"]]'},
+            "part 1: answer.before: names ['d'], which are not steps",
+        ),
+        ({"more": "[reference]\nb = 1"}, "reference names 'b', which is not drawn"),
+        (
+            {"more": '[figure]\nname = "f"\nquiz = false\nreads = ["a"]'},
+            "figure.reads: nothing is read in a figure with quiz = false",
+        ),
     ],
 )
 def test_rules_that_nobody_means_are_one_located_line(tmp_path, rules, words):
@@ -176,12 +187,20 @@ def test_rules_that_nobody_means_are_one_located_line(tmp_path, rules, words):
     assert re.match(rf"{place}:\d+: {re.escape(words)}", str(caught.value))
 
 
-def test_a_topic_that_the_bank_does_not_list_is_an_error(tmp_path):
+@pytest.mark.parametrize(
+    ("about", "words"),
+    [
+        (
+            '[topics]\noptics = { en = "Optics" }\n',
+            r"template.toml:\d+: topic 'algebra' is not in bank.toml \(optics\)",
+        ),
+        ('languages = ["French"]', "bank.toml:1: languages: 'French' is no language"),
+    ],
+)
+def test_what_a_bank_says_of_itself_holds(tmp_path, about, words):
     bank = a_bank(tmp_path)
-    (tmp_path / "templates" / "bank.toml").write_text('[topics]\noptics = { en = "Optics" }\n')
-    with pytest.raises(
-        BankError, match=r"template.toml:\d+: topic 'algebra' is not in bank.toml \(optics\)"
-    ):
+    (tmp_path / "templates" / "bank.toml").write_text(about)
+    with pytest.raises(BankError, match=words):
         bank.template("compare")
 
 

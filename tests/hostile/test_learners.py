@@ -81,6 +81,7 @@ def test_a_browser_that_is_known_for_one_is_not_for_another(app, join):
     assert from_elsewhere(app, 1).sign_in("Karim").url.path == "/"
 
 
+@pytest.mark.slow
 def test_one_address_cannot_try_one_password_at_every_name(app, join):
     found = [
         Somebody(app).sign_in(f"name {number}", "password1").status_code for number in range(102)

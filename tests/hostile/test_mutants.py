@@ -13,7 +13,7 @@ from kinds import KINDS
 from run import LARGEST, LONGEST, tried, warm
 from sweep import draws
 
-CHUNK = 250
+CHUNK = 125
 LONG_CHUNK = 250
 
 
@@ -29,7 +29,7 @@ def failures(numbers):
 
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")  # NumPy's, of numbers that nobody means
-@pytest.mark.parametrize("first", range(0, 250, CHUNK))
+@pytest.mark.parametrize("first", range(0, 125, CHUNK))
 def test_a_mutant_is_a_located_error_or_the_right_result(first):
     wrong, _ = failures(range(first, first + CHUNK))
     assert not wrong

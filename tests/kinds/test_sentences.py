@@ -259,6 +259,7 @@ SPEC = {
     ("dof kome, chobi ujjol", "found", "missing"),
     ("depht of feild decreses", "found", "missing"),
     ("without more light", "missing", "refused"),
+    ("The shot has a depth of field.", "missing", "missing"),  # no short one
     ("", "missing", "missing"),
     ("(((( ^^ -> ] 1/0 √ |", "missing", "missing"),
 ])  # fmt: skip
@@ -267,6 +268,15 @@ def test_the_sign_of_a_statement(sentence, dof, light):
 
     made = load_spec(SPEC).suggest(sentence)
     assert [finding.status for finding in made.findings] == [dof, light]
+
+
+def test_a_root_is_one_with_what_stands_under_it():
+    from quizgen.kinds.grade import load_spec
+
+    spec = load_spec({"kind": "rubric", "full": "1", "criteria": {
+        "root": {"points": "1", "accept": ["SNR = √N"]}}})  # fmt: skip
+    said = {"SNR is sqrt N": "found", "SNR = √(2N)": "missing", "√M is the SNR of N": "missing"}
+    assert {one: spec.suggest(one).findings[0].status for one in said} == said
 
 
 def test_the_clause_that_is_gone_by_is_quoted():

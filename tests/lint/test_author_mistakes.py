@@ -31,7 +31,7 @@ def test_without_a_mistake_nothing_is_said(tmp_path):
     assert (done.exit_code, done.stderr) == (0, "")
 
 
-@pytest.mark.parametrize("row", spread(ROWS, 60), ids=lambda row: row["what"])
+@pytest.mark.parametrize("row", spread(ROWS, 30), ids=lambda row: row["what"])
 def test_a_mistake_gets_one_located_message_that_names_the_mend(tmp_path, row):
     template = row["file"].split("/")
     only = ("--only", template[2] if template[0] == "templates" and template[3:] else "push")

@@ -15,6 +15,7 @@ from qti_schemas import schema
 
 from quizgen.lms import get_exporter
 from quizgen.lms.interactions import ExtendedTextInteraction
+from quizgen.lms.items import items_from_templates
 from quizgen.lms.qti.dialect import QTI3, QTI21
 from quizgen.lms.qti.item import item_identifier
 from quizgen.lms.qti.package import package_files
@@ -76,6 +77,15 @@ def test_fields_without_names_are_numbered(reference):
         fields = list(root.iter(f"{QTI}textEntryInteraction"))
         before = [(one.getparent().text or "").strip() for one in fields]
         assert before == [f"{i}." for i in range(1, count + 1)]
+
+
+def test_fields_stand_in_their_cells(bank):
+    """A drop-down list or a line to type in, in the row that it completes."""
+    (item,) = items_from_templates(bank, ["complete-table-of-ccd-and-cmos"], 1, 1, ["en"])
+    (_, root), _ = sorted(elements(package_files([item], QTI21)).items())
+    fields = list(root.iter(f"{QTI}inlineChoiceInteraction", f"{QTI}textEntryInteraction"))
+    assert len(fields) == len(item.parts)
+    assert {field.getparent().tag for field in fields} == {f"{QTI}td"}
 
 
 def test_pictures_are_files_with_words(items, files):

@@ -101,11 +101,6 @@ def curve_bound(_):
     return relative((product + product) / one()) + SECOND
 
 
-def term_bound(_):
-    """Bound for f x/(pitch z), the part of a pixel's place that is not its offset."""
-    return relative(one() * one() / (one() * one())) + SECOND
-
-
 def pincushion_bound(_):
     """Bound for the inverse of one coefficient k1 >= 0: a step of Newton from the closed form.
 

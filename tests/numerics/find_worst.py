@@ -48,10 +48,6 @@ SPACES = {
     ),
     "gamma.srgb_decode": lambda rng: (10 ** rng.uniform(-2, 0),),
     "luminosity.luminous_efficiency": lambda rng: (rng.uniform(355, 835),),
-    "projection.pixel_coordinate": lambda rng: (
-        *(positive(rng) / 1000, 1e-6 * positive(rng)),
-        *(round(rng.uniform(-2, 2), 6), positive(rng), rng.uniform(0, 4000)),
-    ),
 }
 
 

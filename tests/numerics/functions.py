@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from quizgen.numerics import distortion, gamma, gaussian, hsv, luminosity, projection
+from quizgen.numerics import distortion, gamma, gaussian, hsv, luminosity
 
 FUNCTIONS = {
     "gaussian.inverse_upper_tail": gaussian.inverse_upper_tail,
     "distortion.distort_x": lambda *args: distortion.distort(*args)[0],
     "distortion.fold_radius": distortion.fold_radius,
     "distortion.inverse_radius": distortion.inverse_radius,
-    "projection.pixel_coordinate": projection.pixel_coordinate,
     "gamma.srgb_decode": gamma.srgb_decode,
     "hsv.red": lambda *args: hsv.hsv_to_rgb(*args)[0],
     "hsv.green": lambda *args: hsv.hsv_to_rgb(*args)[1],
@@ -19,7 +18,7 @@ FUNCTIONS = {
 """By the name of the formula's family."""
 
 COUNTS = {
-    "projection.pixel_coordinate": 5, "distortion.distort_x": 4, "distortion.fold_radius": 2,
+    "distortion.distort_x": 4, "distortion.fold_radius": 2,
     "distortion.inverse_radius": 3, "hsv.red": 3, "hsv.green": 3, "hsv.blue": 3,
 }  # fmt: skip
 """Arguments of the functions that take more than one."""

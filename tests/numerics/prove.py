@@ -151,7 +151,6 @@ PIECES = {
         counted.flat_inverse_bound, -41.0, -40.0, 1, 2 * quintic._STEPS
     ),
     "luminosity.efficiency": Piece(counted.curve_bound, 0.0, 1.0, 1),
-    "projection.pixel, f x/(pitch z)": Piece(counted.term_bound, 0.0, 1.0, 1),
 }
 
 

@@ -68,7 +68,7 @@ INPUTS = {
 }  # fmt: skip
 """By kernel: a function that runs nothing else on these inputs.
 
-The others are parts of functions: powers of ``srgb_decode``, the shift of ``projection.pixel_coordinate``.
+The others are parts of functions: powers of ``srgb_decode``.
 """
 
 

@@ -110,11 +110,9 @@ def test_printed_values(name, args, text):
 # Where there is no answer.
 
 REFUSED = [
-    ("projection.pixel_coordinate", (0.0, 2.0, 0.03, 1.0, 0.0), "not-positive"),
-    ("projection.pixel_coordinate", (math.nan, 2.0, 0.03, 1.0, 0.0), "not-finite"),
+    ("distortion.inverse_radius", (math.nan, -0.25, 0.0), "not-finite"),
     ("distortion.inverse_radius", (0.77, -0.25, 0.0), "beyond-fold"),
     ("distortion.inverse_radius", (0.76980035891950105, -0.25, 0.0), "beyond-fold"),
-    ("projection.pixel_coordinate", (2.0, 1.0, 1.0, 0.0, 0.0), "on-camera-plane"),
     ("gamma.srgb_decode", (-0.1,), "negative-intensity"),
     ("gaussian.inverse_upper_tail", (1.0,), "not-a-probability"),
 ]

@@ -10,7 +10,6 @@ from fractions import Fraction
 
 import mpmath as mp
 import numpy as np
-import oracle
 import pytest
 from functions import COUNTS, FUNCTIONS, function
 from hypothesis import HealthCheck, given, settings
@@ -18,7 +17,7 @@ from hypothesis import strategies as st
 from sweep import together
 from ulp import ulps
 
-from quizgen.numerics import distortion, gamma, hsv, projection
+from quizgen.numerics import distortion, gamma, hsv
 from quizgen.numerics.domain import DomainError, is_defined
 
 ANY = st.floats(allow_nan=False, allow_infinity=False)
@@ -51,8 +50,6 @@ def test_any_finite_input(name, data):
         assert scalar.reason != "not-finite"
         return
     assert not math.isnan(scalar)
-    if name == "projection.pixel_coordinate":  # arrays do not read decimals
-        return
     assert float(value[0]) == scalar or abs(float(value[0]) - scalar) <= 8 * math.ulp(scalar)
 
 
@@ -226,7 +223,6 @@ SLOW = {
     "next to the fold": ("distortion.inverse_radius", (0.8606629658238703, -0.2, 0.0)),
     "next to the fold of two": ("distortion.inverse_radius", (0.8606629658238703, -0.2, -1e-30)),
     "beyond the gamut": ("hsv.red", (123.4, 1.5, 0.3)),
-    "extreme camera": ("projection.pixel_coordinate", (1e-200, 1e-300, 1e200, 1e150, 1.0)),
     "far tail": ("gaussian.inverse_upper_tail", (1e-300,)),
 }
 
@@ -244,65 +240,6 @@ def test_no_element_takes_long(case):
     assert (time.process_time() - start) / 2000 < 300e-6
 
 
-def test_pixels_of_numbers_are_those_of_their_decimals():
-    rng = np.random.default_rng(3)
-    for _ in range(200):
-        row = (
-            rng.integers(20, 60) / 10**4, rng.integers(10, 90) / 10**7, round(rng.uniform(-2, 2), 4),
-            round(rng.uniform(1, 6), 3), rng.integers(0, 4000) / 2,
-        )  # fmt: skip
-        f, pitch, x, z, o = map(oracle.as_decimal, row)
-        assert projection.pixel_coordinate(*row) == float(o + f * x / (pitch * z))
-    assert projection.pixel_coordinate(0.002, 5e-6, -1, 2, 320) == 120
-
-
-def test_pixels_of_numbers_with_all_their_digits():
-    """Sixteen and seventeen digits are read like fewer; doubles taken as they are give 1.3863e-15."""
-    row = (
-        0.011485512773356046,
-        1.780408500724562e-06,
-        -0.03470600540431537,
-        -44.778068428813455,
-        -5.0,
-    )
-    f, pitch, x, z, o = (Fraction(repr(one)) for one in row)
-    assert (
-        projection.pixel_coordinate(*row)
-        == float(o + f * x / (pitch * z))
-        == 1.3896695581018135e-15
-    )
-
-
-def test_pixels_of_arrays_are_within_the_stated_bound():
-    rng = np.random.default_rng(5)
-    f, pitch, z = rng.uniform(0.002, 0.1, 300), rng.uniform(1e-6, 9e-6, 300), rng.uniform(1, 9, 300)
-    x, o = rng.uniform(-2, 2, 300), rng.uniform(0, 4000, 300)
-    for value, *row in zip(
-        projection.pixel_coordinate(f, pitch, x, z, o), f, pitch, x, z, o, strict=True
-    ):
-        F, P, X, Z, O = map(Fraction, row)  # noqa: N806, E741
-        shift = F * X / (P * Z)
-        most = math.ulp(max(abs(float(shift)), float(O), abs(float(value))))
-        assert abs(Fraction(float(value)) - O - shift) <= 4 * Fraction(most)
-
-
-def test_pixels_of_arrays_at_any_magnitude():
-    """By exact fractions, where products of the arguments leave the range."""
-    rng = np.random.default_rng(6)
-    columns = np.ldexp(rng.uniform(1, 2, (5, 400)), rng.integers(-1070, 1020, (5, 400)))
-    columns[4, :100] = 0.0
-    columns[2, 50:150] *= -1
-    for value, *row in zip(projection.pixel_coordinate(*columns), *columns, strict=True):
-        F, P, X, Z, O = map(Fraction, row)  # noqa: N806, E741
-        shift = F * X / (P * Z)
-        larger = max(abs(shift), O)
-        if larger >= 2**1023:
-            assert abs(value) >= 2.0**1023
-        else:
-            most = Fraction(math.ulp(float(larger)))
-            assert abs(Fraction(float(value)) - O - shift) <= 4 * most
-
-
 def test_colours_outside_the_gamut_by_exact_fractions():
     """Saturation beyond 1 cancels against the place in the sector; a grey one stays 0."""
     rng = np.random.default_rng(8)
@@ -316,20 +253,12 @@ def test_colours_outside_the_gamut_by_exact_fractions():
             assert abs(value - expected) <= 4 * Fraction(math.ulp(float(expected)))
 
 
-def test_pixels_of_tiny_depths_keep_their_digits():
-    """The pitch times a subnormal depth has no digits left: such elements go by fractions."""
-    x, z = np.array([1e-310, 3e-310, 1.0]), np.array([1e-310, 1e-310, 2.0])
-    values = function("projection.pixel_coordinate")(2.0, 5e-6, x, z, 0.0)
-    assert values.tolist() == pytest.approx([4e5, 1.2e6, 2e5], rel=2**-51)
-
-
 @together("odd", [-math.inf, math.inf, math.nan])
 @together(
     ("name", "place", "args"),
     [
         ("distortion.fold_radius", 0, (-0.2, 0.0)),
-        ("projection.pixel_coordinate", 2, (2.0, 0.005, 1.0, 2.0, 320.0)),
-        ("projection.pixel_coordinate", 3, (2.0, 0.005, 1.0, 2.0, 320.0)),
+        ("distortion.inverse_radius", 0, (0.5, -0.2, 0.0)),
     ],
 )
 def test_one_odd_element_is_found_in_a_block(name, place, args, odd):
@@ -340,7 +269,7 @@ def test_one_odd_element_is_found_in_a_block(name, place, args, odd):
     assert values[0] == function(name)(*(np.array([arg, arg]) for arg in args))[0]
 
 
-@pytest.mark.parametrize("name", ["gaussian.inverse_upper_tail", "projection.pixel_coordinate"])
+@pytest.mark.parametrize("name", ["gaussian.inverse_upper_tail", "distortion.fold_radius"])
 def test_no_elements_give_no_elements(name):
     values = function(name)(*[np.empty(0)] * COUNTS.get(name, 1))
     assert values.shape == (0,)

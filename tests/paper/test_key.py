@@ -111,6 +111,13 @@ def test_points_that_are_no_number_are_located(points, said):
         parse_answer_key(table, "mine")
 
 
+def test_a_unit_that_nobody_knows_is_located():
+    chain = {**CHAIN, "steps": [["h", "f*X/Z", "florp"]]}
+    table = {**TABLE, "questions": [{**TABLE["questions"][0], "chain": chain}]}
+    with pytest.raises(KeyFileError, match=r"^mine: question '1': chain: .*florp"):
+        parse_answer_key(table, "mine")
+
+
 @pytest.mark.parametrize("found", [None, "quizgen-key/3"])
 def test_another_format_is_named(found):
     with pytest.raises(KeyFileError, match=rf"^key: format is {found!r}, not 'quizgen-key/2'$"):

@@ -50,7 +50,7 @@ def test_the_longest_formula_is_no_better_guess_than_any():
     assert sum(map(longest, found)) / len(found) <= chance + 0.1
 
 
-@together("name", spread(CALCULATING, 0, slow=30))
+@together("name", spread(CALCULATING, 0, slow=15))
 def test_in_no_template_is_the_longest_formula_mostly_right(name):
     found = list(choices(name, 50))
     assert sum(map(longest, found)) <= 0.6 * len(found)
@@ -117,7 +117,7 @@ def test_a_change_goes_either_way(name):
     assert one_sided(name, 40, 8) == set()
 
 
-@together("name", spread(CALCULATING, 0, slow=30))
+@together("name", spread(CALCULATING, 0, slow=15))
 def test_no_answer_is_right_in_nearly_every_draw(name):
     assert one_sided(name, draws(50, full=200), FEWEST) == set()
 

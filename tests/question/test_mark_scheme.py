@@ -13,6 +13,7 @@ from quizgen.kinds import KINDS
 from quizgen.kinds.grade import grade_answer
 from quizgen.kinds.number import NumberSpec
 from quizgen.kinds.quantity import QuantitySpec
+from quizgen.kinds.rubric import share_of_marks
 from quizgen.question.compose import compose_question
 from quizgen.question.mark_scheme import mark_steps, rescale_criteria
 
@@ -121,6 +122,21 @@ def test_of_an_exact_fraction_a_marker_hears_that_a_decimal_is_as_good():
         for value in ("1/3", "440")
     ]
     assert said == ["the same value as a fraction or as a decimal", ""]
+
+
+def test_a_paper_says_how_exactly_where_three_figures_are_not_what_is_asked():
+    rules = [{"sigfigs": 2}, {"sigfigs": 3}, {"decimals": 1}, {"exact": True}, {"rel": "1/1000"},
+             {"abs": "0.5"}, {}]  # fmt: skip
+    specs = [NumberSpec(kind="number", value="7/3", **rule) for rule in rules]
+    assert [KINDS["number"].paper_hints(one, "en") for one in specs] == [
+        ("2 significant figures",), (), ("1 decimal",), ("exact",), ("±\u00a00.1 %",), ("±\u00a00.5",), (),
+    ]  # fmt: skip
+
+
+def test_reasons_worth_more_than_their_part_give_no_more_than_all_of_it():
+    two = {"cone": Fraction(1), "area": Fraction(1)}
+    half = {"cone": Fraction(1, 2)}
+    assert [share_of_marks(one, two, Fraction(1)) for one in (two, half)] == [1, Fraction(1, 2)]
 
 
 def test_a_value_read_off_a_plot_is_no_fraction_and_an_exposure_time_is_one():

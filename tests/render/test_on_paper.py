@@ -210,6 +210,13 @@ def test_an_answer_told_in_words_alone_begins_with_them(bank):
     assert r"#strong(\"Answer:\"); #\" - \"" not in typst_text
 
 
+def test_solutions_say_what_the_numbers_beside_steps_are(bank):
+    paper = single_question_paper(bank.template("point-to-image-plane"), 1, "en", figures=False)
+    page = html.render_paper_html(paper, "solutions").decode()
+    (number,) = re.findall(r"A number such as (F\d\d) next to a step", page)
+    assert page.count(number) > 1
+
+
 def test_of_a_drawn_mistake_only_the_sentence_is_told(bank):
     """Its points would be three lines of numbers, and no picture of it."""
     paper = single_question_paper(bank.template("draw-image-through-a-pinhole"), 1, "en")

@@ -19,7 +19,7 @@ from quizgen.question.part_context import ask_part
 from quizgen.tradeoff.solving import draws_list
 
 NAMES = list(builtin_bank().template_paths)
-SEEDS = draws(4, full=1000)
+SEEDS = draws(3, full=1000)
 DRAWS = 300
 QUICKLY_COUNTED, MOST_COUNTED = 200, 60_000
 """Largest number of candidates that the default tests, and any tests, walk through for a pool."""
@@ -29,7 +29,7 @@ QUICKLY_COUNTED, MOST_COUNTED = 200, 60_000
 def test_lint_finds_nothing(bank, name):
     template = bank.template(name)
     runs = any(part.answer["kind"] == "program" for part in template.rules.part)
-    seeds = 2 if runs and not IS_FULL else SEEDS  # each draw runs a dozen programs
+    seeds = 1 if runs and not IS_FULL else SEEDS  # each draw runs a dozen programs
     report = lint_template(template, seeds, bank.languages)
     assert report.problems == []
     assert report.seeds == seeds
@@ -101,7 +101,7 @@ COUNTED = [
     name for name in NAMES if builtin_bank().rules(name).pool and tried(name) <= MOST_COUNTED
 ]
 QUICKLY = [name for name in COUNTED if tried(name) <= QUICKLY_COUNTED]
-LONG = spread((name for name in COUNTED if name not in QUICKLY), 0, slow=27)
+LONG = spread((name for name in COUNTED if name not in QUICKLY), 0, slow=12)
 
 
 @together("name", [*QUICKLY, *LONG])
@@ -135,7 +135,7 @@ def choices():
                 yield name, index
 
 
-@together(("name", "index"), spread(choices(), 8, slow=24))
+@together(("name", "index"), spread(choices(), 8, slow=12))
 def test_the_right_choice_stands_anywhere(bank, name, index):
     """Position of the right option over seeds: no place more than five deviations off its share."""
     template = bank.template(name)

@@ -69,6 +69,7 @@ def wrong_parts(page: str, answered: str, answers, sentences) -> list[str]:
         for name, values in answers.items()
         if not takes(forms, name, values)
     ]
+    found += ["None is shown"] if ">None<" in page else []
     right = {name for name, verdict in said.items() if verdict == "correct"}
     return found + [f"{name}: {said.get(name)}" for name in answers.keys() - right - sentences]
 

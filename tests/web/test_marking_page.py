@@ -233,6 +233,10 @@ def test_a_changed_line_moves_all_marks_made_with_it_and_says_whose(first, secon
     assert values(folder)[one[0]] == "1"
     assert read_rulings(folder)[-1].comment == "Good."
     assert [entry.who for entry in read_rubric(folder, ITEM).history] == ["BN", "BN"]
+    first.decide(one, ["distances"])
+    change(second, sure="1")
+    first.post("undo")
+    assert values(folder)[one[0]] == "0.75"  # by the rubric as it is now
 
 
 def mark_again(browser, folder):

@@ -247,6 +247,10 @@ def test_a_sentence_is_judged_by_criteria(client, token):
     assert "You gave yourself 1 point." in page  # what has ended stays
 
 
+def test_letters_of_a_formula_are_buttons(client, begin):
+    assert 'data-put="N"' in client.get(begin("photon-snr-formula-and-model")).text
+
+
 @pytest.mark.skipif(not can_run_programs(), reason="no process can be locked here")
 def test_a_function_is_written_line_by_line(client, token, begin):
     at = begin("write-hue-shift")

@@ -134,7 +134,7 @@ def test_a_request_that_never_comes_whole_is_given_up(monkeypatch, sent):
         await receive()
         await asyncio.Event().wait()
 
-    async def ask() -> bytes:
+    async def ask() -> tuple[bytes, int]:
         config = uvicorn.Config(app, http=own.TimedProtocol, lifespan="off", log_level="critical")
         config.load()
         server = uvicorn.Server(config)
@@ -149,6 +149,6 @@ def test_a_request_that_never_comes_whole_is_given_up(monkeypatch, sent):
             writer.write(sent)
             answer = await asyncio.wait_for(reader.read(), 20)
             writer.close()
-            return answer
+            return answer, len(server.server_state.connections)
 
-    assert ran(ask()) == b"", "closed"
+    assert ran(ask()) == (b"", 0), "closed, and nothing is kept of it"

@@ -48,7 +48,7 @@ def scaffold_bank(name: str, langs: tuple[str, ...]) -> dict[str, bytes]:
         f'{lang} = "{example.get(lang, example[ENGLISH])}"' for lang in langs
     )
     found = {
-        "templates/bank.toml": _fill_scaffold_file(_HERE / "bank.toml", blanks),
+        "templates/bank.toml": _fill_scaffold_file(_HERE / "bank.toml", blanks, langs[0]),
         **{f"schemas/{kind}.json": build_json_schema(kind) for kind in SCHEMAS},
         **scaffold_template(*FIRST, FIRST[1], langs),
     }
@@ -74,8 +74,10 @@ def scaffold_package(name: str, langs: tuple[str, ...]) -> tuple[str, dict[str, 
     blanks["PROJECT"] = module.replace("_", "-")
     source = _HERE / "package"
     return module, {
-        "pyproject.toml": _fill_scaffold_file(source / "pyproject.toml.txt", blanks),
-        ".github/workflows/lint.yml": _fill_scaffold_file(source / "lint.yml.txt", blanks),
+        "pyproject.toml": _fill_scaffold_file(source / "pyproject.toml.txt", blanks, langs[0]),
+        ".github/workflows/lint.yml": _fill_scaffold_file(
+            source / "lint.yml.txt", blanks, langs[0]
+        ),
         f"{module}/__init__.py": f'"""Questions for quizgen: {name}."""\n'.encode(),
         **{f"{module}/{path}": data for path, data in scaffold_bank(name, langs).items()},
     }
@@ -116,7 +118,7 @@ def scaffold_template(topic: str, name: str, kind: str, langs: tuple[str, ...]) 
     blanks = {"TOPIC": topic, "SOLVER": solver, "TITLE": _make_title_from_name(name)}
     found = {
         f"templates/{topic}/{name}/template.toml": _fill_scaffold_file(
-            folder / "template.toml", blanks
+            folder / "template.toml", blanks, langs[0]
         )
     }
     for lang in langs:
@@ -124,13 +126,18 @@ def scaffold_template(topic: str, name: str, kind: str, langs: tuple[str, ...]) 
         words = own if own.is_file() else folder / "en.md"
         found[f"templates/{topic}/{name}/{lang}.md"] = _fill_scaffold_file(words, blanks)
     if (folder / "solver.py.txt").is_file():
-        found[f"solvers/{solver}.py"] = _fill_scaffold_file(folder / "solver.py.txt", blanks)
+        found[f"solvers/{solver}.py"] = _fill_scaffold_file(
+            folder / "solver.py.txt", blanks, langs[0]
+        )
     return found
 
 
-def _fill_scaffold_file(file: Traversable, blanks: dict[str, str]) -> bytes:
-    """Return a file of the scaffold with each ``@name@`` replaced."""
+def _fill_scaffold_file(file: Traversable, blanks: dict[str, str], lang: str = ENGLISH) -> bytes:
+    """Return a file of the scaffold with each ``@name@`` replaced, its comments in a language."""
     text = file.read_text("utf-8")
+    comments = tomllib.loads((_HERE / "comments.toml").read_text("utf-8"))
+    for english, said in comments.get(lang, {}).items():
+        text = text.replace(english, said)
     for name, value in blanks.items():
         text = text.replace(f"@{name}@", value)
     return text.encode()

@@ -58,10 +58,6 @@ def _build_count_table(mean: float, precision: Precision) -> Image:
     return (np.searchsorted(np.cumsum(chances), middles, side="right") + first).astype(precision)
 
 
-_MOSTLY_NONE = WORDS * 15 // 16
-"""Luck without an electron from which on it is faster to look for the places with one."""
-
-
 def operation(view: View) -> TileOperation:
     """Return what adds dark charge with its shot noise to a tile; hot pixels are set to white."""
     charge, stuck = effect_random(view, "dark current"), effect_random(view, "hot pixels")
@@ -70,15 +66,10 @@ def operation(view: View) -> TileOperation:
         _build_count_table(dark_electrons(view), view.precision),
     )
     signals = counts * (1.0 / electrons_at_white(view))
-    first = int(np.searchsorted(signals, 0.0, side="right"))
 
     def add_dark_current(part: Image, tile: Tile) -> None:
         """Add counts drawn from the table to a tile in place."""
-        if first <= _MOSTLY_NONE:
-            part += charge.draw_from_table(signals, tile.number, part.size)
-        elif first < WORDS:
-            where, drawn = charge.table_places(first, tile.number, part.size)
-            part[where] += signals[drawn]
+        part += charge.draw_from_table(signals, tile.number, part.size)
         if share:
             part.reshape(-1, 3)[stuck.draw_uniform(tile.number, part.size // 3) < share] = 1.0
 

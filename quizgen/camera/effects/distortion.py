@@ -13,10 +13,15 @@ from msgspec.structs import replace
 from quizgen.camera.effect import Effect, EffectSize, LayerByLayer
 from quizgen.camera.pixels.filters import sample_bilinear, sample_nearest
 from quizgen.camera.pixels.tiles import split_range
-from quizgen.camera.raster.detail_regions import sampled_regions
-from quizgen.camera.raster.layers import Field, bound_shift, largest_margin, replace_regions
+from quizgen.camera.raster.layers import (
+    Field,
+    bound_shift,
+    largest_margin,
+    remake_layer,
+    sampling_reach,
+)
 from quizgen.camera.raster.rasterizer import Layer, PixelBox
-from quizgen.camera.setup.scene import Image, Precision, SceneError
+from quizgen.camera.setup.scene import Image, SceneError
 from quizgen.camera.setup.settings import NEEDS_LENS, Setting, aperture_diameter
 from quizgen.camera.setup.value_parsers import parse_plain_number
 from quizgen.camera.setup.view import Signal, View
@@ -106,78 +111,24 @@ def _interpolate_hermite(q: Field, table: tuple[Field, Field, float]) -> Field:
     return np.asarray(first + t * ((second - first) + (1 - t) * (bend * (1 - t) + other * t)))
 
 
-@lru_cache(maxsize=2)
-def ratio_quadrant(
-    width: int, height: int, focal: float, k1: float, k2: float, corner: float
-) -> Field:
-    """Return undistorted over distorted radius of the pixels in the upper left quadrant.
-
-    Middle lines are included; lengths are in px. Beyond the corner of the frame, where the picture
-    may fold, the ratio stays what it is there.
-    """
-    right = np.abs(np.arange((width + 1) // 2) - (width - 1) / 2)
-    lower = np.abs(np.arange((height + 1) // 2) - (height - 1) / 2)
-    table = _build_inverse_table(corner / focal, k1, k2)
-    factor = np.empty((lower.size, right.size))
-    for start in range(0, lower.size, _ROWS):
-        part = slice(start, start + _ROWS)
-        squared = right[None, :] ** 2 + lower[part, None] ** 2
-        factor[part] = _interpolate_hermite(np.minimum(squared, corner**2) / focal**2, table)
-    return factor
-
-
-_ROWS = 64
-"""Rows worked on at once, so that what lies in between stays small."""
-
-
 def source_positions(view: View, box: PixelBox = (slice(None), slice(None))) -> tuple[Image, Image]:
     """Return x and y (px) from which the pixels of a box are read, shape of the box each.
 
-    Small maps are cached as a whole, large ones computed for each box.
+    Beyond the corner of the frame, where the picture may fold, undistorted over distorted radius
+    stays what it is there.
     """
-    camera, sides = view.camera, (view.width, view.height)
-    lens = *sides, view.focal, camera[K1], camera[K2], view.frame_corner, view.precision
-    rows, columns = (
-        range(*part.indices(side)) for part, side in zip(box, sides[::-1], strict=True)
-    )
-    if view.width * view.height > _KEPT:
-        return _compute_map(lens, rows, columns)
-    x, y = _compute_whole_map(lens)
-    return x[box], y[box]
+    focal, corner = view.focal, view.frame_corner
+    table = _build_inverse_table(corner / focal, view.camera[K1], view.camera[K2])
+    (x0, y0), kind = view.centre, view.precision
+    across = (np.arange(view.width) - x0)[box[1]]
+    down = (np.arange(view.height) - y0)[box[0], None]
+    squared = across**2 + down**2
+    factor = _interpolate_hermite(np.minimum(squared, corner**2) / focal**2, table)
+    return (factor * across + x0).astype(kind), (factor * down + y0).astype(kind)
 
 
 _BAND = 64
-"""Rows that are read at once."""
-_KEPT = 1_000_000
-"""Pixels of the largest map that is kept as a whole: 8 MB."""
-_Lens = tuple[int, int, float, float, float, float, Precision]
-
-
-@lru_cache(maxsize=4)
-def _compute_whole_map(lens: _Lens) -> tuple[Image, Image]:
-    """Return the source positions of a whole picture, cached."""
-    return _compute_map(lens, range(lens[1]), range(lens[0]))
-
-
-def _compute_map(lens: _Lens, rows: range, columns: range) -> tuple[Image, Image]:
-    """Return x and y (px) from which some rows and columns are read.
-
-    Three quadrants of the map mirror the first.
-    """
-    width, height = lens[:2]
-    across, down = np.arange(width) - (width - 1) / 2, np.arange(height) - (height - 1) / 2
-    line, half = np.asarray(rows), (width + 1) // 2
-    left = ratio_quadrant(*lens[:6])[np.minimum(line, height - 1 - line)]
-    straight = left[:, columns.start : min(columns.stop, half)]
-    first, last = max(columns.start, half), columns.stop
-    mirrored = left[:, width - last : width - first][:, ::-1]
-    factor = np.concatenate([straight, mirrored], axis=1)
-    x, y = (np.empty(factor.shape, lens[6]) for _ in range(2))
-    np.add(
-        factor * across[columns.start : columns.stop], (width - 1) / 2, out=x, casting="same_kind"
-    )
-    np.add(factor * down[line, None], (height - 1) / 2, out=y, casting="same_kind")
-    return x, y
+"""Rows that are read at once, so that what lies in between stays small."""
 
 
 def operation(layer: Layer, view: View) -> Layer:
@@ -189,8 +140,8 @@ def operation(layer: Layer, view: View) -> Layer:
         return [sample_bilinear(image, x, y) for image in images]
 
     far = largest_displacement(view)
-    where = sampled_regions(layer, (far, far))
-    layer = replace_regions(layer, where, warp, (_BAND, sys.maxsize))
+    reach = sampling_reach(layer, (far, far))
+    layer = remake_layer(layer, reach, warp, (_BAND, sys.maxsize))
     if not isinstance(layer.depth, np.ndarray):
         return layer
     depth = np.empty_like(layer.depth)

@@ -7,8 +7,12 @@ from msgspec.structs import replace
 
 from quizgen.camera.effect import Effect, EffectSize, LayerByLayer
 from quizgen.camera.pixels.filters import sample_grid
-from quizgen.camera.raster.detail_regions import sampled_regions
-from quizgen.camera.raster.layers import bound_shift, largest_margin, replace_regions
+from quizgen.camera.raster.layers import (
+    bound_shift,
+    largest_margin,
+    remake_layer,
+    sampling_reach,
+)
 from quizgen.camera.raster.rasterizer import Layer, PixelBox
 from quizgen.camera.setup.scene import Image, SceneError
 from quizgen.camera.setup.settings import Setting
@@ -35,7 +39,6 @@ def check_camera(view: View) -> None:
 def operation(layer: Layer, view: View) -> Layer:
     """Return a layer with red magnified and blue reduced about the principal point."""
     far = _largest_displacement(view)
-    where = sampled_regions(layer, (far, far))
     if layer.cover is not None:  # a cover for each colour
         cover = np.broadcast_to(layer.cover, layer.colour.shape)
         layer = replace(layer, cover=cover, own=False)
@@ -44,7 +47,7 @@ def operation(layer: Layer, view: View) -> Layer:
         """Return colour and cover of a box, each channel magnified by its own factor."""
         return [_magnify(image, view, box) for image in images]
 
-    return replace_regions(layer, where, split_colours)
+    return remake_layer(layer, sampling_reach(layer, (far, far)), split_colours)
 
 
 def _magnify(image: Image, view: View, box: PixelBox) -> Image:

@@ -8,7 +8,6 @@ import numpy as np
 
 from quizgen.camera.effect import Effect, EffectSize, LayerByLayer
 from quizgen.camera.pixels.filters import sample_bilinear
-from quizgen.camera.raster.detail_regions import sampled_regions
 from quizgen.camera.raster.layers import (
     Field,
     bound_layers,
@@ -17,8 +16,9 @@ from quizgen.camera.raster.layers import (
     largest_chord,
     largest_margin,
     position_error,
-    replace_regions,
+    remake_layer,
     rotate_layer,
+    sampling_reach,
 )
 from quizgen.camera.raster.rasterizer import Layer, LayerSpec, PixelBox, layer_specs
 from quizgen.camera.setup.scene import Image
@@ -56,7 +56,7 @@ def operation(layer: Layer, view: View) -> Layer:
 
     latest = float(times[-1, 0])
     far = abs(across) * latest, abs(down) * latest
-    return replace_regions(layer, sampled_regions(layer, far), shear_rows)
+    return remake_layer(layer, sampling_reach(layer, far), shear_rows)
 
 
 def _clamp_to_edge(positions: Field, length: int, view: View) -> Image:

@@ -61,15 +61,12 @@ def falloff_map(view: View) -> Image:
 def _fall_off_map(
     width: int, height: int, focal: float, mechanical: float, precision: Precision
 ) -> Image:
-    """Return the map of a whole picture, cached: one quadrant is computed and mirrored."""
+    """Return the map of a whole picture, cached."""
     x, y = (width - 1) / 2, (height - 1) / 2
-    right, lower = np.arange((width + 1) // 2) - x, np.arange((height + 1) // 2) - y
-    squared = right[None, :] ** 2 + lower[:, None] ** 2
+    squared = (np.arange(width)[None, :] - x) ** 2 + (np.arange(height)[:, None] - y) ** 2
     kept: Field = 1.0 / (1.0 + squared / focal**2) ** 2 if focal else np.ones_like(squared)
     if mechanical:
         kept = kept * rim_overlap(mechanical * np.sqrt(squared) / math.hypot(x, y))
-    kept = np.concatenate([kept, kept[:, width // 2 - 1 :: -1]], axis=1)
-    kept = np.concatenate([kept, kept[height // 2 - 1 :: -1]], axis=0)
     return kept.astype(precision)[..., None]
 
 

@@ -7,8 +7,6 @@ from numpy.typing import NDArray
 
 GREY_LEVELS = 255.0
 
-Numbers = NDArray[np.integer] | NDArray[np.floating]
-
 
 def to_8bit(values: NDArray[np.floating]) -> NDArray[np.uint8]:
     """Return 8-bit codes of values in [0, 255]: clipped, halves rounded upward.
@@ -19,26 +17,10 @@ def to_8bit(values: NDArray[np.floating]) -> NDArray[np.uint8]:
     return np.asarray(np.clip(values + 0.5, 0, 255), np.uint8)  # which leaves out the fraction
 
 
-def count_histogram(image: Numbers, bins: int = 256, top: float = 1.0) -> NDArray[np.int64]:
-    """Return the counts of values in equal bins over [0, top]; values outside go to the end bins.
-
-    Parameters
-    ----------
-    image : numpy.ndarray
-        Any shape. With integer pictures use ``top = 255`` and 256 bins: one bin per level.
-    """
-    if image.dtype == np.uint8:  # each level once, not each pixel
-        counts = np.bincount(image.reshape(-1), minlength=256)
-        index = _assign_bins(np.arange(256), bins, top)
-        return np.bincount(index, counts, bins).astype(np.int64)
-    return np.bincount(_assign_bins(image, bins, top).reshape(-1), minlength=bins)
-
-
-def _assign_bins(values: Numbers, bins: int, top: float) -> NDArray[np.int64]:
-    """Return the index of the bin of every value."""
-    steps = bins - 1 if np.issubdtype(values.dtype, np.integer) else bins
-    index = (values.astype(np.float64) * (steps / top)).astype(np.int64)
-    return np.clip(index, 0, bins - 1)
+def count_histogram(image: NDArray[np.floating], bins: int) -> NDArray[np.int64]:
+    """Return the counts of values in equal bins over [0, 1]; values outside go to the end bins."""
+    index = np.clip((image.astype(np.float64) * bins).astype(np.int64), 0, bins - 1)
+    return np.bincount(index.reshape(-1), minlength=bins)
 
 
 def _average_patch(levels: NDArray[np.floating], down: float, across: float) -> float:

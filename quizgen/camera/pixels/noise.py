@@ -46,21 +46,13 @@ class EffectRandom:
         raw: NDArray[np.uint64] = self._source.random_raw(count).astype("<u8", copy=False)
         return raw
 
-    def _draw_words(self, tile: int, count: int, stream: int = 0) -> NDArray[np.uint16]:
+    def _draw_words(self, tile: int, count: int) -> NDArray[np.uint16]:
         """Return whole numbers below 2^16, each as likely."""
-        return self._draw_raw(tile, -(-count // 4), stream).view("<u2")[:count]
+        return self._draw_raw(tile, -(-count // 4)).view("<u2")[:count]
 
     def draw_from_table(self, table: Image, tile: int, count: int) -> Image:
         """Return values of a table of 2^16, each as likely."""
         return np.take(table, self._draw_words(tile, count), mode="clip")
-
-    def table_places(
-        self, first: int, tile: int, count: int
-    ) -> tuple[PixelPlaces, NDArray[np.uint16]]:
-        """Return where a table of 2^16 is read at ``first`` or beyond, and the indices."""
-        words = self._draw_words(tile, count)
-        where = np.flatnonzero(words >= first)
-        return where, words[where]
 
     def draw_normal(
         self, tile: int, count: int, kind: DTypeLike = np.float32, *, fine: bool = False

@@ -7,7 +7,7 @@ over the interpreter's lock after each took twice as long as one, and four times
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from time import perf_counter
 from typing import NamedTuple
 
@@ -61,7 +61,6 @@ def apply_tilewise(
     works: Sequence[TileOperation],
     *,
     into: Image | None = None,
-    among: Iterable[Tile] | None = None,
 ) -> tuple[Image, NDArray[np.float64]]:
     """Return a picture changed tile by tile, each by all works while it is in the cache.
 
@@ -73,8 +72,6 @@ def apply_tilewise(
         In this order.
     into : numpy.ndarray, optional
         Where the result is written, maybe over the values themselves.
-    among : iterable of Tile, optional
-        Where something is to be done, instead of everywhere.
 
     Returns
     -------
@@ -86,7 +83,7 @@ def apply_tilewise(
     seen = values if values.ndim == 3 else np.ascontiguousarray(values).reshape(-1)
     result = np.empty(seen.shape, seen.dtype) if into is None else into.reshape(seen.shape)
     scratch, clock = np.empty(TILE_VALUES, seen.dtype), np.zeros(len(works))
-    for tile in iter_tiles(seen.shape) if among is None else among:
+    for tile in iter_tiles(seen.shape):
         source = seen[tile.place]
         part = scratch[: source.size]
         part.reshape(source.shape)[...] = source

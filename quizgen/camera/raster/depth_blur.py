@@ -17,7 +17,6 @@ from quizgen.camera.pixels import kernels
 from quizgen.camera.pixels.filters import convolve
 from quizgen.camera.pixels.kernels import BlurKernel, disc_kernel, moved_share
 from quizgen.camera.pixels.tiles import split_range
-from quizgen.camera.raster.detail_regions import grow_box
 from quizgen.camera.raster.layers import Field, blur_layer, bound_layers, largest_margin
 from quizgen.camera.raster.rasterizer import (
     Layer,
@@ -25,6 +24,7 @@ from quizgen.camera.raster.rasterizer import (
     PixelBox,
     blend_into,
     bounding_box,
+    grow_box,
     layer_specs,
 )
 from quizgen.camera.setup.scene import Image

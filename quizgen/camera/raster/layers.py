@@ -14,14 +14,6 @@ from numpy.typing import NDArray
 from quizgen.camera.pixels.filters import convolve, sample_bilinear
 from quizgen.camera.pixels.kernels import BlurKernel
 from quizgen.camera.pixels.tiles import split_range
-from quizgen.camera.raster.detail_regions import (
-    Regions,
-    content_box,
-    full_box,
-    grow_box,
-    regions_changed_by_blur,
-    sampled_regions,
-)
 from quizgen.camera.raster.rasterizer import (
     Layer,
     LayerSpec,
@@ -29,6 +21,8 @@ from quizgen.camera.raster.rasterizer import (
     PixelBox,
     bounding_box,
     extends_beyond_frame,
+    full_box,
+    grow_box,
     intersect_boxes,
     layer_specs,
 )
@@ -46,30 +40,39 @@ _ROWS, _COLUMNS = 256, 1024
 """Made at once, so that what lies in between stays small; more where a kernel is wide."""
 
 
-def replace_regions(
-    layer: Layer, where: Regions, make: RegionMaker, most: tuple[int, int] = (_ROWS, sys.maxsize)
+def remake_layer(
+    layer: Layer,
+    reach: tuple[int, int],
+    make: RegionMaker,
+    most: tuple[int, int] = (_ROWS, sys.maxsize),
+    within: PixelBox | None = None,
 ) -> Layer:
-    """Return a layer in which some regions are computed by ``make``, band by band.
+    """Return a layer of which ``make`` computes all that its content can reach, band by band.
 
     Parameters
     ----------
     layer : Layer
-    where : Regions
+    reach : (int, int)
+        Rows and columns that light gets from its pixel.
     make : callable
         Gets colour and cover and what is wanted of them.
     most : (int, int)
         Rows and columns that are made at once, so that what lies in between stays small.
+    within : (slice, slice), optional
+        A box outside which nothing changes.
     """
-    if not where.boxes:
+    whole = full_box(layer.colour.shape)
+    changed = intersect_boxes(
+        grow_box(content_box(layer), reach, layer.colour.shape), within or whole
+    )
+    if changed is None:
         return layer
     images = [layer.colour] if layer.cover is None else [layer.colour, layer.cover]
-    results = (
-        images if layer.own else [_copy_image(image, layer, where.boxes[0]) for image in images]
-    )
+    results = images if layer.own else [_copy_image(image, layer, changed) for image in images]
     made: list[MadeRegion] = []
-    for box in sorted(_split_boxes(where.boxes, most), key=_first_row):
+    for box in _split_box(changed, most):
         # nothing may be written over while others still look at it
-        done = _first_row(box) - (where.reach if results is images else 0)
+        done = box[0].start - (reach[0] if results is images else 0)
         _write_regions((one for one in made if one[0][0].stop <= done), results)
         made = [one for one in made if one[0][0].stop > done]
         made.append((box, make(images, box)))
@@ -81,11 +84,6 @@ def replace_regions(
 MadeRegion = tuple[PixelBox, list[Image]]
 
 
-def _first_row(box: PixelBox) -> int:
-    """Return the first row of a box, to sort by."""
-    return int(box[0].start)
-
-
 def _write_regions(made: Iterable[MadeRegion], results: list[Image]) -> None:
     """Copy computed regions into the results: colour and, if there is one, coverage."""
     for box, parts in made:
@@ -93,9 +91,9 @@ def _write_regions(made: Iterable[MadeRegion], results: list[Image]) -> None:
             result[box] = part
 
 
-def _copy_image(image: Image, layer: Layer, first: PixelBox) -> Image:
+def _copy_image(image: Image, layer: Layer, changed: PixelBox) -> Image:
     """Return a copy of what stays of an image; empty parts take no memory."""
-    if image[first].shape == image.shape:
+    if image[changed].shape == image.shape:
         return np.empty(image.shape, image.dtype)
     if layer.cover is None:
         return image.copy()
@@ -105,13 +103,25 @@ def _copy_image(image: Image, layer: Layer, first: PixelBox) -> Image:
     return result
 
 
-def _split_boxes(boxes: list[PixelBox], most: tuple[int, int]) -> Iterator[PixelBox]:
-    """Yield boxes cut into pieces of at most so many rows and columns."""
-    for rows, columns in boxes:
-        for top, bottom in split_range(rows.stop - rows.start, most[0]):
-            for left, right in split_range(columns.stop - columns.start, most[1]):
-                down = slice(rows.start + top, rows.start + bottom)
-                yield down, slice(columns.start + left, columns.start + right)
+def _split_box(box: PixelBox, most: tuple[int, int]) -> Iterator[PixelBox]:
+    """Yield a box cut into pieces of at most so many rows and columns, from the top."""
+    rows, columns = box
+    for top, bottom in split_range(rows.stop - rows.start, most[0]):
+        for left, right in split_range(columns.stop - columns.start, most[1]):
+            down = slice(rows.start + top, rows.start + bottom)
+            yield down, slice(columns.start + left, columns.start + right)
+
+
+def sampling_reach(layer: Layer, far: tuple[float, float]) -> tuple[int, int]:
+    """Return the rows and columns that sampling so far (across, down, px) from a pixel reads."""
+    sides = layer.colour.shape[1::-1]
+    across, down = (math.ceil(min(one, side)) + 1 for one, side in zip(far, sides, strict=True))
+    return down, across
+
+
+def content_box(layer: Layer) -> PixelBox:
+    """Return the box outside which a layer is empty."""
+    return full_box(layer.colour.shape) if layer.cover is None else bounding_box(layer.cover)
 
 
 def blur_layer(layer: Layer, kernel: BlurKernel) -> Layer:
@@ -131,7 +141,7 @@ def blur_layer(layer: Layer, kernel: BlurKernel) -> Layer:
         return [found[..., :channels], found[..., channels:]][: len(images)]
 
     most = max(_ROWS, 16 * down), max(_COLUMNS, 32 * across)
-    return replace_regions(layer, regions_changed_by_blur(layer, kernel), blur, most)
+    return remake_layer(layer, (down, across), blur, most)
 
 
 def bound_layers(signal: Signal, view: View, share: Callable[[LayerSpec], float]) -> float:
@@ -220,9 +230,8 @@ def rotate_layer(layer: Layer, angles: Sequence[float | Field], reach: float) ->
         """Return the rotated images of a box."""
         return _turn_images(images, box, layer.motion, angles)
 
-    where, near = sampled_regions(layer, (reach, reach)), _turning_box(layer)
-    boxes = [part for box in where.boxes if (part := intersect_boxes(box, near)) is not None]
-    return replace_regions(layer, where._replace(boxes=boxes), turn, _TURNED)
+    near = _turning_box(layer)
+    return remake_layer(layer, sampling_reach(layer, (reach, reach)), turn, _TURNED, near)
 
 
 def _turning_box(layer: Layer) -> PixelBox:

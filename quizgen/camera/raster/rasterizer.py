@@ -6,19 +6,17 @@ Layers are kept apart only where something needs it: different blur or different
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
-from itertools import groupby, starmap
+from collections.abc import Sequence
+from itertools import groupby
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
 from quizgen.camera.pixels.tiles import split_range
-from quizgen.camera.raster.shapes import CLOSEST, SHAPES, TEXTURES, Coordinates
+from quizgen.camera.raster.shapes import SHAPES, TEXTURES, Coordinates
 from quizgen.camera.setup.scene import Image, SceneError, SceneObject
 from quizgen.camera.setup.settings import aperture_diameter
 from quizgen.camera.setup.view import View
-from quizgen.numerics.ufunc import warm_allocator
 
 
 class Motion(msgspec.Struct, frozen=True):
@@ -126,6 +124,25 @@ def bounding_box(cover: Image) -> PixelBox:
     return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
 
 
+def full_box(shape: tuple[int, ...]) -> PixelBox:
+    """Return the box of all rows and columns."""
+    return slice(0, shape[0]), slice(0, shape[1])
+
+
+def grow_box(box: PixelBox, far: tuple[int, int], shape: tuple[int, ...]) -> PixelBox:
+    """Return a box with more rows and columns on each side, within the picture.
+
+    An empty box stays empty.
+    """
+    if not box[0].stop:
+        return box
+    rows, columns = (
+        slice(max(part.start - more, 0), min(part.stop + more, length))
+        for part, more, length in zip(box, far, shape, strict=False)
+    )
+    return rows, columns
+
+
 def _centre_of(thing: SceneObject, view: View) -> tuple[float, float]:
     """Return the centre of a thing on the picture (x, y), px from the first pixel."""
     return view.centre[0] + thing.x.value, view.centre[1] + thing.y.value
@@ -202,15 +219,10 @@ def _pixel_centres(part: slice) -> Coordinates:
     return np.arange(part.start, part.stop, dtype=np.float64)
 
 
-def _draw_edge(
-    layer: Layer, thing: SceneObject, view: View, part: PixelBox, *, empty: bool
-) -> bool:
-    """Draw the part of a thing with its soft edge in a box.
+def _draw_thing(layer: Layer, thing: SceneObject, view: View, part: PixelBox) -> None:
+    """Draw what is seen of a thing in a box, with its soft edge.
 
-    ``empty`` says that nothing was drawn there before. Memory that nothing is written to is not
-    taken from the system.
-
-    Return whether it covers anything there.
+    Where it covers nothing, nothing is written: memory that is not written to takes none.
     """
     place = _to_own_axes(thing, view, *map(_pixel_centres, part))
     share = np.subtract(0.5, SHAPES[thing.shape](thing, *place))
@@ -218,36 +230,14 @@ def _draw_edge(
     np.minimum(share, 1.0, out=share)
     cover = share.astype(view.precision)
     if not cover.any():
-        return False
+        return
     image = np.empty((*cover.shape, 3), view.precision)
     for channel, plane in enumerate(_colour_planes(thing, view, place)):
         np.multiply(cover, plane, out=image[..., channel])  # far faster than all three together
-    if empty:  # nothing behind is kept
-        _assign_region(layer, part, image, cover[..., None])
-        return True
     keep = 1.0 - cover[..., None]
     blend_into(layer.colour[part], keep, image)
     if layer.cover is not None:
         blend_into(layer.cover[part], keep, cover[..., None])
-    return True
-
-
-def _assign_region(layer: Layer, part: PixelBox, image: Image, cover: Image | float) -> None:
-    """Set colour and coverage of a box of a layer."""
-    layer.colour[part] = image
-    if layer.cover is not None:
-        layer.cover[part] = cover
-
-
-def _fill_region(layer: Layer, thing: SceneObject, view: View, part: PixelBox) -> None:
-    """Draw a thing over a box that it covers fully; of an even thing one row stands for all."""
-    rows, columns = map(_pixel_centres, part)
-    planes = _colour_planes(thing, view, _to_own_axes(thing, view, rows, columns))
-    shape = np.broadcast_shapes((1, columns.size), *map(np.shape, planes))
-    image = np.empty((*shape, 3), view.precision)
-    for channel, plane in enumerate(planes):
-        image[..., channel] = plane
-    _assign_region(layer, part, image, 1.0)
 
 
 def _colour_planes(
@@ -316,10 +306,6 @@ def layer_specs(view: View) -> tuple[LayerSpec, ...]:
     return tuple(found)
 
 
-_SETTLED = 30 << 20
-"""Bytes, just below the most that the C library takes note of (32 MiB)."""
-
-
 def rasterize(view: View) -> LayerStack:
     """Return the drawn layers of a scene.
 
@@ -335,54 +321,7 @@ def rasterize(view: View) -> LayerStack:
     """
     if view.scene.is_metric:
         raise SceneError("lengths in metres must be projected first")
-    warm_allocator(_SETTLED)
     return tuple(_draw_layer(spec, view) for spec in layer_specs(view))
-
-
-# Cells: which parts of a picture a drawn thing covers as a whole, and where nothing of it is.
-# A band of rows is as high as a cell; of what covers or leaves out all of one no edge is computed.
-
-CELL = 64
-"""Columns of a cell, and rows unless the picture is narrow."""
-_CELLS_AT_ONCE = 16
-"""Cells drawn at once, few enough for the cache."""
-
-CellStates = NDArray[np.int8]
-"""Of each row and column of cells: `NOTHING` of a thing, an edge of it maybe, or `ALL` covered."""
-NOTHING, ALL = 0, 2
-
-
-def cell_height(width: int) -> int:
-    """Return the rows of a cell for a picture of this width: more where it is narrow."""
-    return max(CELL, _CELLS_AT_ONCE * CELL * CELL // width)
-
-
-def classify_cells(away: NDArray[np.float64], reach: float) -> CellStates:
-    """Return whether a thing leaves each cell empty, covers it, or may have its edge there.
-
-    Parameters
-    ----------
-    away : numpy.ndarray
-        From `quizgen.camera.raster.shapes.CLOSEST` in the middle of each.
-    reach : float
-        From there to a corner, px; the soft edge is half a pixel more.
-    """
-    far = reach + 0.5
-    return np.asarray(1 - (away >= far) + (away <= -far), np.int8)
-
-
-def iter_runs(row: list[int]) -> Iterator[tuple[slice, bool]]:
-    """Yield (cells, whether covered) of neighbours in a row that are alike.
-
-    Empty ones are left out.
-    """
-    start = 0
-    for state, alike in groupby(row):
-        stop = start + len(list(alike))
-        if state != NOTHING:
-            for first in range(start, stop, _CELLS_AT_ONCE):
-                yield slice(first, min(first + _CELLS_AT_ONCE, stop)), state == ALL
-        start = stop
 
 
 def _draw_layer(spec: LayerSpec, view: View) -> Layer:
@@ -392,35 +331,15 @@ def _draw_layer(spec: LayerSpec, view: View) -> Layer:
         return layer
     line = np.empty((view.width, 3), view.precision)
     line[...] = view.scene.background
-    each = [_classify_thing_cells(thing, view) for thing in spec.things]
-    for number, rows in enumerate(
-        starmap(slice, split_range(view.height, cell_height(view.width)))
-    ):
-        hidden = bool(each) and (each[0][number] == ALL).all()
-        if spec.opaque and view.scene.image is None and not hidden:
+    for start, stop in split_range(view.height, max(1, _BAND // view.width)):
+        rows = slice(start, stop)
+        if spec.opaque and view.scene.image is None:
             layer.colour[rows] = line
-        drawn = [spec.opaque] * -(-view.width // CELL)
-        for thing, box, found in zip(spec.things, boxes, each, strict=True):
-            for cells, full in iter_runs(found[number].tolist()):
-                part = intersect_boxes((rows, slice(cells.start * CELL, cells.stop * CELL)), box)
-                if part is None:
-                    continue
-                if full:
-                    _fill_region(layer, thing, view, part)
-                if full or _draw_edge(layer, thing, view, part, empty=not any(drawn[cells])):
-                    drawn[cells] = [True] * len(drawn[cells])
+        for thing, box in zip(spec.things, boxes, strict=True):
+            part = intersect_boxes((rows, slice(0, view.width)), box)
+            if part is not None:
+                _draw_thing(layer, thing, view, part)
     return layer
-
-
-def _classify_thing_cells(thing: SceneObject, view: View) -> CellStates:
-    """Return for every cell of the picture whether a thing covers it."""
-    height = cell_height(view.width)
-    rows, columns = (
-        np.arange(0.0, length, side) + (side - 1) / 2.0
-        for length, side in ((view.height, height), (view.width, CELL))
-    )
-    place = _to_own_axes(thing, view, rows, columns)
-    return classify_cells(CLOSEST[thing.shape](thing, *place), math.hypot(height, CELL) / 2.0)
 
 
 def _allocate_layer(spec: LayerSpec, view: View) -> Layer:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,18 +30,13 @@ def _disc_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordi
     """
     radius = thing.radius.value
     if radius >= 1.0:
-        return _circle_distance(thing, x, y)
+        return np.hypot(x, y) - radius
     left, right = (np.clip((x + side) / radius, -1.0, 1.0) for side in (-0.5, 0.5))
     upper, lower = (np.clip((y + side) / radius, -1.0, 1.0) for side in (-0.5, 0.5))
     corners = [
         disc_area_below(*np.broadcast_arrays(a, b)) for a in (left, right) for b in (upper, lower)
     ]
     return np.asarray(0.5 - radius**2 * (corners[3] - corners[2] - corners[1] + corners[0]))
-
-
-def _circle_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
-    """Return the signed distance to a circle, px."""
-    return np.hypot(x, y) - thing.radius.value
 
 
 def _ellipse_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
@@ -75,19 +69,21 @@ def _blades_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coor
     return np.asarray(np.minimum(blade, distance - thing.stroke.value * 0.8))
 
 
-def _polygon_distance(
-    thing: SceneObject, x: Coordinates, y: Coordinates, reach: float = 1.0
-) -> Coordinates:
-    """Return the signed distance to a polygon, px; infinite beyond ``reach``, which saves time."""
+_NEAR = 1.0
+"""Distance from the outline, px, beyond which only the side counts."""
+
+
+def _polygon_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+    """Return the signed distance to a polygon, px; infinite beyond `_NEAR`, which saves time."""
     shape = np.broadcast_shapes(x.shape, y.shape)
     distance, inside = np.full(shape, np.inf), np.zeros(shape, bool)
     rows, columns = _value_ends(y, 1), _value_ends(x, 0)
     for (ax, ay), (bx, by) in zip(thing.points, (*thing.points[1:], thing.points[0]), strict=True):
         squared = (bx - ax) ** 2 + (by - ay) ** 2
-        level = _find_near_lines(rows, ay, by, reach)
+        level = _find_near_lines(rows, ay, by)
         if not squared or level.start == level.stop:
             continue  # a corner given twice, such as the first one to close the outline, or far off
-        here, there = (level, _find_near_lines(columns, ax, bx, reach)), _select_lines(level, y)
+        here, there = (level, _find_near_lines(columns, ax, bx)), _select_lines(level, y)
         across, down = x[_select_lines(level, x)][:, here[1]] - ax, y[there] - ay
         if down.shape[1] > 1:
             down = down[:, here[1]]
@@ -107,12 +103,10 @@ def _value_ends(plane: Coordinates, axis: int) -> tuple[Coordinates, Coordinates
     return plane.min(axis=axis), plane.max(axis=axis)
 
 
-def _find_near_lines(
-    ends: tuple[Coordinates, Coordinates], start: float, stop: float, reach: float
-) -> slice:
-    """Return the rows or columns within ``reach`` of a side from start to stop."""
+def _find_near_lines(ends: tuple[Coordinates, Coordinates], start: float, stop: float) -> slice:
+    """Return the rows or columns within `_NEAR` of a side from start to stop."""
     low, high = ends
-    near = np.flatnonzero((high >= min(start, stop) - reach) & (low <= max(start, stop) + reach))
+    near = np.flatnonzero((high >= min(start, stop) - _NEAR) & (low <= max(start, stop) + _NEAR))
     return slice(near[0], near[-1] + 1) if near.size else slice(0, 0)
 
 
@@ -137,22 +131,6 @@ SHAPES: dict[str, ShapeFunction] = {
 }
 """Signed distance to the outline in px, negative inside."""
 
-
-def _least_ellipse_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
-    """Return a lower bound of the distance to an ellipse that changes at most as one moves."""
-    half_width, half_height = thing.width.value / 2, thing.height.value / 2
-    level = np.hypot(x / half_width, y / half_height)
-    return np.asarray((level - 1.0) * min(half_width, half_height))
-
-
-CLOSEST: dict[str, ShapeFunction] = {
-    **SHAPES,
-    "disc": _circle_distance,
-    "ellipse": _least_ellipse_distance,
-    "polygon": partial(_polygon_distance, reach=math.inf),
-}
-"""No farther from the outline, on the same side; from place to place it changes by their distance
-at most, so that what it is somewhere says what there is around."""
 
 SIZES = {
     "box": ("width", "height"),

@@ -93,12 +93,7 @@ def _drop_brackets(tokens: list[WordToken]) -> list[WordToken]:
     for place, text in enumerate(texts[:-3]):
         if text == "sqrt" and texts[place + 1] == "(" and texts[place + 3] == ")":
             dropped |= {place + 1, place + 3}
-    tied = {place + 1 for place in dropped}
-    return [
-        token._replace(tied=True) if place in tied and token.tied else token
-        for place, token in enumerate(tokens)
-        if place not in dropped
-    ]
+    return [token for place, token in enumerate(tokens) if place not in dropped]
 
 
 def _split_prefix(word: str) -> tuple[str, ...]:

@@ -14,6 +14,7 @@ from itertools import pairwise
 
 from quizgen.grading.judging.spelling import allowed_typos, fold_word, typo_distance
 from quizgen.grading.reading.answer_reader import says_otherwise
+from quizgen.grading.reading.number_words import list_number_words
 from quizgen.locale import list_languages, load_words
 
 _TOKEN = re.compile(
@@ -27,6 +28,11 @@ _SHARES = (
     (re.compile(r"\bthree quarters\b"), "3/4"),
     (re.compile(r"\b(?:a |one )?quarter\b"), "1/4"),
     (re.compile("∞"), "infinity"),
+    (re.compile(r"\b50 ?%"), "1/2"),
+    (re.compile(r"\b25 ?%"), "1/4"),
+    (re.compile(r"\b75 ?%"), "3/4"),
+    (re.compile(r"(?<=\d)[.,]0+(?!\d)"), ""),
+    (re.compile(r"(?<![^\W_])([a-z]{3,})(?=\d)"), r"\1 "),
     (re.compile(r"(?<=\d) ?[-–—] ?(?=\d)"), " to "),
     (re.compile(r"\b(?:minus|negative) (?=\d)"), "-"),
     (re.compile(r"(?<!\S)\+(?=\d)"), ""),
@@ -86,6 +92,8 @@ _IDLE = frozenset(
         "এবং",
     }
 )
+_JOINING = frozenset({"from", "to", "in", "with", "as", "for", "has", "have", "may", "so"})
+"""Words that say little by themselves, though no other wording may have them."""
 _AGAINST = frozenset(
     {"wrong", "false", "incorrect", "falsch", "instead", "rather", "other", "others", "ভুল", "মিথ্যা"}
 )
@@ -121,11 +129,14 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
     ]  # fmt: skip
     if len(named) == 1:
         return named[0]
+    same = _find_same_pieces(typed, wordings)
+    if len(same) == 1:
+        return same[0]
     known = frozenset().union(*listed)
     meant = frozenset(_find_known_word(word, known) for word in _join_compounds(spoken, known))
     hits = [place for place, words in enumerate(listed, 1) if _own_words(words, listed) & meant]
     if len(hits) != 1:
-        hits = _find_nearest(meant, listed)
+        hits = _find_nearest(meant & known, listed)
     if len(hits) != 1:
         return 0
     wanted = listed[hits[0] - 1]
@@ -170,10 +181,20 @@ def load_translations() -> dict[str, tuple[str, ...]]:
     }
 
 
+def find_translation(word: str) -> tuple[str, ...]:
+    """Return what a word says in English, maybe with the ending of an adjective; none if unknown."""
+    folded, known = fold_word(word), load_translations()
+    stem = _ADJECTIVE.sub("", folded)
+    return known.get(folded) or known.get(stem) or known.get(f"{stem}e", ())
+
+
+_ADJECTIVE = re.compile(r"(?<=.{4})e[rsnm]?$")
+
+
 def list_translated(typed: str) -> list[str]:
     """Return a text with its known words of other languages in English; none if it has none."""
     pieces = re.split(r"([\s,;:()-]+)", typed)
-    known = [load_translations().get(fold_word(piece)) if piece else None for piece in pieces]
+    known = [find_translation(piece) if piece else () for piece in pieces]
     most = max((len(said) for said in known if said), default=0)
     return [
         "".join(
@@ -215,6 +236,22 @@ def _find_nearest(meant: frozenset[str], listed: list[frozenset[str]]) -> list[i
     ]
 
 
+def _find_same_pieces(typed: str, wordings: Sequence[str]) -> list[int]:
+    """Return the places of wordings of the same pieces, in any order: ``night 1, day 2``."""
+    said = _list_pieces(typed)
+    if len(said) < len(("one", "another")):
+        return []
+    return [place for place, one in enumerate(wordings, 1) if _list_pieces(one) == said]
+
+
+def _list_pieces(text: str) -> frozenset[frozenset[str]]:
+    """Return the words of each piece between commas and joining words."""
+    return frozenset(frozenset(_split_words(piece)) for piece in _JOINED.split(text))
+
+
+_JOINED = re.compile(r"[,;] |,? (?:and|und|ও|এবং|আর) ")
+
+
 def _join_compounds(spoken: tuple[str, ...], known: frozenset[str]) -> tuple[str, ...]:
     """Return the words with those put together that are one: ``attribute error``."""
     for first, second in pairwise(spoken):
@@ -229,13 +266,16 @@ def _says_enough(
 ) -> bool:
     """Return whether an answer has enough of a wording: ``barrel``, not ``pixels`` for hot ones.
 
-    It has all numbers and letters in it, and at least half of the words that no other one has; a
+    It has all numbers and letters that tell it from others, and at least half of the words that no other one has; a
     word of its own only with two thirds of these, more of them only with all.
     """
     exact = {
-        word for word in wording if len(word) == 1 or not (word.isalpha() or _BANGLA.match(word))
+        word
+        for word in {*wording} - frozenset.intersection(*listed)
+        if len(word) == 1 or not (word.isalpha() or _BANGLA.match(word))
     }
     own = _own_words(frozenset(wording), listed)
+    own = own - _JOINING or own
     said = own & meant
     if exact - meant or 2 * len(said) < len(own):
         return False
@@ -258,8 +298,21 @@ def _denies(words: frozenset[str]) -> bool:
 
 
 def _find_known_word(word: str, known: frozenset[str]) -> str:
-    """Return the known word that a typed one is, maybe with slips in spelling; else itself."""
-    if word in known or not word.isalpha():
+    """Return the known word that a typed one is, maybe with slips in spelling; else itself.
+
+    ``two`` is the known 2, and the other way round.
+    """
+    if word in known:
+        return word
+    number = list_number_words().get(word, -1)
+    spelt = (
+        [one for one in known if list_number_words().get(one) == int(word)]
+        if word.isdecimal()
+        else [str(number)]
+    )
+    if {*spelt} & known:
+        return next(one for one in spelt if one in known)
+    if not word.isalpha():
         return word
     near = [one for one in known if _stem(one) == _stem(word)] or [
         one
@@ -287,6 +340,7 @@ def _split_words(text: str) -> tuple[str, ...]:
     text = _ROOT.sub(r"√\1", unicodedata.normalize("NFC", text).casefold().replace("−", "-"))
     for pattern, sign in _SHARES:
         text = pattern.sub(sign, text)
+    text = _same_pattern().sub(lambda one: _load_same_words()[one[0]], text)
     folded = (_fold(token) for token in _TOKEN.findall(text))
     return tuple(word for word in folded if word and word not in _IDLE)
 
@@ -298,17 +352,31 @@ _BANGLA_ENDING = re.compile(
 """What a case, a number or a stress adds to a Bangla word."""
 
 
-_SAME = {"bigger": "larger", "biggest": "largest", "big": "large", "gray": "grey", "pic": "picture"}
-"""Words that say the same."""
+@cache
+def _load_same_words() -> dict[str, str]:
+    """Return the words and phrases that say the same as another one, of all languages."""
+    return {
+        word: said
+        for lang in list_languages()
+        for said, words in load_words(lang, "answers").get("same", {}).items()
+        for word in words
+    }
+
+
+@cache
+def _same_pattern() -> re.Pattern[str]:
+    """Return the pattern of everything that says the same as another word."""
+    listed = "|".join(map(re.escape, sorted(_load_same_words(), key=len, reverse=True)))
+    return re.compile(rf"(?<![\w\u0980-\u09ff])(?:{listed})(?![\w\u0980-\u09ff])")
 
 
 def _fold(token: str) -> str:
     """Return a word without the ending of its plural and without spelling variants."""
     if _BANGLA.match(token):
         return _BANGLA_ENDING.sub("", token)
-    if not token.isalpha():
+    if not token.isalpha() or token in list_number_words():
         return token
-    word = _SAME.get(token, fold_word(token))
+    word = fold_word(token)
     return (
         word.removesuffix("s") if len(word) > len("axis") - 1 and not word.endswith("ss") else word
     )

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from fractions import Fraction
 from functools import cache
 from typing import Literal, NamedTuple, TypeAlias
 
@@ -19,11 +20,12 @@ from quizgen.grading.reading.factor_words import is_shrinking, read_factor
 from quizgen.grading.reading.joined_values import rejoin_values, repeat_value
 from quizgen.grading.reading.labels import NAME, AskedNames, find_name
 from quizgen.grading.reading.literals import LITERAL
-from quizgen.grading.reading.normalise import LONGEST_PROSE, REWRITES
+from quizgen.grading.reading.normalise import APPROXIMATE, LONGEST_PROSE, REWRITES
 from quizgen.grading.reading.number_words import (
     add_large_words,
     add_mixed_units,
     list_number_words,
+    replace_mixed_words,
     replace_number_word,
     replace_only_number_word,
 )
@@ -42,6 +44,8 @@ _EMOJI = re.compile("[\u2600-\u2712\u2719-\u2753\u2757-\u27bf\u2b00-\u2bff\U0001
 _MARKDOWN = re.compile(
     r"(?<![\w*])(\*\*|__|~~)(?=\S)(.+?)(?<=\S)\1(?![\w*])|(?<![\w*)])\*(?=\S)([^*]+)(?<=\S)\*(?!\S)"
 )
+_STRUCK = re.compile(r"~~(?=\S)[^~]+~~ *")
+"""What its writer has struck out in Markdown."""
 _CODE = re.compile(r"\s*`{1,3}([^`]+)`{1,3}\s*")
 _QUOTES = '“”„‟«»"‹›'
 _PAIRED = re.compile(r"^(['‘’‚`´]+)(.+?)['‘’`´]+$")
@@ -136,7 +140,9 @@ def _load_around_words() -> _AroundWords:
 
 _NO_UNIT_BEFORE_A_WORD = frozenset({"in", "a", "as", "at", "am", "um", "d", "to", "so", "is"})
 _IN_UNIT = re.compile(r"(?<=\d) ?\(? ?in ([^\W\d_°]+|°)\)?$", re.IGNORECASE)
-_CLOCK = re.compile(r"(\d{1,2}):([0-5]\d) ?h")
+_CLOCK = re.compile(r"(\d{1,2})(?::([0-5]\d) ?h| ?h ?([0-5]\d))")
+_ROUNDED = re.compile(r",? (?:rounded|gerundet)(?: to| auf)?:? (?=[-+−]?[.,]?\d)", re.IGNORECASE)
+"""Between a value and the same one rounded."""
 _ROUNDING = re.compile(
     r"[ ,(]+(?:rounded|gerundet) (?:to|auf) \w+ (?:significant |signifikante )?"
     r"(?:decimal|digit|figure|place|stelle|nachkommastelle|ziffer)s?n?(?: places)?\)?$",
@@ -154,7 +160,7 @@ _CALLED = re.compile(r"[\w-]\(?$|-\s*$")
 _BETWEEN = re.compile(r"[\s\w.,:;\u0980-\u09ff-]*")
 _NAMED = re.compile(
     rf"^(?:so |also )?(?:\|{NAME}\||{NAME}[\u0300-\u036f]?)"
-    r"(?: ?[=≈:] ?| (?:is|ist|gleich) )(?=[-+]?[.,]?\d|√|sqrt)"
+    rf"(?: ?[=≈:] ?| (?:is|ist|gleich) )(?:(?:{APPROXIMATE}) )?(?=[-+]?[.,]?\d|√|sqrt)"
 )
 _NEARLY = re.compile(rf"(?:almost|nearly|fast|প্রায়){_END}", re.IGNORECASE)
 """What changes a word, and only rounds a number."""
@@ -190,6 +196,13 @@ def list_plainer_texts(
     plain = drop_decoration(typed, form)
     if plain != typed:
         yield plain
+    if form == "formula":
+        bare = _WORDS_BEHIND.sub(
+            "", _ROOT_BEHIND.sub(r"sqrt(\1)", _ROOT_OF.sub(r"sqrt(\1)", plain))
+        )
+        yield bare
+        if "=" in bare:
+            yield bare.rpartition("=")[2]
     if form in {"number", "quantity", "values"}:
         spelt = _write_words_as_numbers(typed if _SPOKEN_SHARE.match(typed) else plain)
         if form == "values":
@@ -200,12 +213,26 @@ def list_plainer_texts(
             yield from separate_labelled_values(spelt, names)
             yield from rejoin_values(spelt, len(names), ranges=ranges)
             yield from bind_values(spelt, names, scan_numbers)
-            last = _LAST_LIST.fullmatch(spelt)
+            last = _LAST_LIST.fullmatch(spelt) or _CORRECTED.fullmatch(spelt)
             if last:
                 yield last[1]
         else:
             yield from _single_answer(spelt, form)
             yield from _find_conclusion(spelt)
+
+
+_ROOT_OF = re.compile(
+    r"(?:the )?(?:(?:square |quadrat)?root of|(?:quadrat)?wurzel (?:aus|von)) ([^\s+*/=-]+)",
+    re.IGNORECASE,
+)
+_ROOT_BEHIND = re.compile(r"([^\s+*/=-]+?)(?:-| )?এর (?:বর্গ)?মূল")
+_WORDS_BEHIND = re.compile(r" \((?:[^\W\d_]{3,}[ -]?)+\)$")
+_FRACTION_FACTOR = re.compile(r"(?<![\w.,^/*)])(\d+ ?/ ?\d+) (?=[(√]|[^\W\d_])")
+
+
+def join_fraction(typed: str) -> str:
+    """Return ``1/4 (x - 4)`` as a product: the blank parts the fraction from what it multiplies."""
+    return _FRACTION_FACTOR.sub(r"(\1)*", typed)
 
 
 def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
@@ -214,12 +241,15 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
     text = _IN_UNIT.sub(r" \1", text)
     if text != named_by:
         yield text
+    same = _SAME_VALUE.fullmatch(text)
+    if same:
+        yield f"{same[1]} = {same[2]}"
     remarked = _REMARKED.fullmatch(text)
-    if remarked and _is_idle_remark(remarked[2]):
+    if remarked and _is_idle_remark(remarked[2]) and not _is_shrunk(*remarked.groups()):
         yield remarked[1]
     clock = _CLOCK.fullmatch(text)
     if clock:
-        yield add_mixed_units(f"{int(clock[1])} h {int(clock[2])} min")
+        yield add_mixed_units(f"{int(clock[1])} h {int(clock[2] or clock[3])} min")
     found, around = scan_numbers(text)
     around = [*around[:-1], _DISTANCE.sub(" ", around[-1])]
     if len(found) != 1 or found[0] == text or not _can_be_dropped(around):
@@ -232,29 +262,64 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
 
 def _find_conclusion(text: str) -> Iterator[str]:
     """Yield the number that is concluded at the end: ``2^3 = 8, so 3 bits``."""
-    concluded = _CONCLUDED.fullmatch(text)
-    if concluded and not says_otherwise(concluded["rest"]):
-        yield concluded["rest"]
+    for shape in (_CONCLUDED, _DERIVED, _CORRECTED):
+        concluded = shape.fullmatch(text)
+        if concluded and not says_otherwise(concluded["rest"]):
+            yield add_mixed_units(concluded["rest"].rpartition("=")[2].strip() or text)
 
 
 _CONCLUDED = re.compile(
-    r".*\d.*?[,;:.]? (?:exactly|precisely|genau|so|thus|hence|therefore|daher|deshalb|তাই|সুতরাং)"
-    r",? (?P<rest>[^,;]*\d[^,;]*)",
+    r".*\w.*?[,;:.]? (?:exactly|precisely|genau|so|thus|hence|therefore|daher|deshalb|also|তাই|সুতরাং)"
+    r",? (?P<rest>(?:[^,;]|(?<=\d),(?=\d))*\d(?:[^,;]|(?<=\d),(?=\d))*)",
     re.IGNORECASE | re.DOTALL,
 )
+_DERIVED = re.compile(r"(?=.*[=√+*/]).*\d.*(?:->|→|=>|⇒) *(?P<rest>[^<>→⇒]*\d[^<>→⇒]*)", re.DOTALL)
+"""A value behind the arrow at the end of a derivation."""
+_CORRECTED = re.compile(
+    r".*\d.*?[,;.:]? (?:no|nein|sorry|oops|wait|i mean|correction|korrektur|না)[,:;.]? "
+    r"(?:(?:no|wait|sorry|rather|it is|it's|i mean|nein|doch)[,:;.]? )*(?P<rest>[-+−]?[.,]?\d[^,;]*|[(\[][^()\[\]]*\d[^()\[\]]*[)\]])",
+    re.IGNORECASE | re.DOTALL,
+)
+"""A value that its writer has put in place of another."""
+
+
+def find_conclusion(typed: str) -> str:
+    """Return what is concluded from sides that are not equal, ``-30 → 330°``; empty if nothing."""
+    return next(_find_conclusion(_write_words_as_numbers(drop_decoration(typed, "number"))), "")
 
 
 def _is_idle_remark(words: str) -> bool:
     """Return whether words in brackets behind a number neither change it nor offer another."""
     found = [word[0].lower() for word in _WORD.finditer(words)]
-    return (
-        len(found) <= _MOST_WORDS
-        and not is_shrinking(words)
-        and not {*found}
-        & (_load_around_words().altering - {"not", "no", "kein", "nicht", "to", "from"})
+    return len(found) <= _MOST_WORDS and not {*found} & (
+        _load_around_words().altering - {"not", "no", "kein", "nicht", "to", "from"}
     )
 
 
+_SAME_VALUE = re.compile(
+    r"([^()]*\d(?: ?[^\W\d]{1,12}(?:/[^\W\d]{1,12})?)?) \((?:i\.e\. |[=≈] ?)?([^()]*\d[^()]*)\)"
+)
+"""A value, and what may be the same one in brackets."""
+
+
+def _is_shrunk(number: str, remark: str) -> bool:
+    """Return whether a remark makes a number smaller: ``5 (smaller)``, but not ``1/5 (smaller)``."""
+    if not is_shrinking(remark):
+        return False
+    share = read_factor(remark).replace("(", "").replace(")", "")
+    plain = number.strip().replace(",", ".").replace(":", "/").replace(" ", "")
+    if not _PLAIN_SHARE.fullmatch(plain):
+        return True
+    return Fraction(share) != _read_share(plain) if share else _read_share(plain) >= 1
+
+
+def _read_share(text: str) -> Fraction:
+    """Return the value of ``1/8`` or ``0.2``."""
+    above, _, below = text.partition("/")
+    return Fraction(above) / Fraction(below or 1)
+
+
+_PLAIN_SHARE = re.compile(r"\d+(?:\.\d+)?(?:/[1-9]\d*)?")
 _DISTANCE = re.compile(
     r"^ (?:(?:away|back) )?(?:from|von) (?=(?:the|a|its|der|dem|den|einer|einem) )"
     r"|^ away from (?=[^\W\d])",
@@ -274,6 +339,15 @@ def drop_decoration(typed: str, form: AnswerForm) -> str:
         before = text
         text = _drop_once(text, form)
     return text or typed
+
+
+def drop_transposed(typed: str) -> str:
+    """Return a list without the sign that it is a column, ``(10; -5)^T``, or hats on its names."""
+    return _TRANSPOSED.sub("", _HATS.sub("", typed))
+
+
+_TRANSPOSED = re.compile(r"(?<=[)\]}])\s*(?:\^ ?\{?(?:T|\\top|t)\}?|ᵀ)\s*$")
+_HATS = re.compile("(?<=[^\\W\\d_])[\u0302-\u0305\u0308\u20d7]")
 
 
 def drop_bullets(typed: str) -> str:
@@ -298,7 +372,8 @@ _COUNTED = re.compile(r"(?:^|[,;\n] *| )\(?(\d)(?:[.)]|:(?=\s)) *(?=[-+−~≈]?
 
 def drop_markup(typed: str) -> str:
     """Return the answer without marks of Markdown and emoji."""
-    text = _MARKDOWN.sub(lambda m: m[2] or m[3], _EMOJI.sub("", typed)) or typed
+    struck = _STRUCK.sub("", _EMOJI.sub("", typed))
+    text = _MARKDOWN.sub(lambda m: m[2] or m[3], struck if struck.strip() else typed) or typed
     code = _CODE.fullmatch(text) if "`" in text else None
     return code[1] if code else text
 
@@ -327,7 +402,7 @@ def _write_words_as_numbers(text: str) -> str:
     """Return ``minus sixteen`` as ``-16``, ``27 min 26 s`` as ``1646 s``."""
     for name in ("digits", "blanks"):
         text = SourceText.of(text).substitute(*REWRITES[name]).text
-    text = _UNDERSCORED.sub("", text)
+    text = _ROUNDED.sub(" ≈ ", _UNDERSCORED.sub("", text))
     typed_array = _TYPED_NUMBER.fullmatch(text)
     text = typed_array[1] if typed_array else text
     text = _write_share_of_unit(text)
@@ -339,7 +414,9 @@ def _write_words_as_numbers(text: str) -> str:
     if not any(map(str.isdigit, spelt)):
         spelt = replace_only_number_word(spelt)
     spelt = _OF_A.sub(" ", _ORDINAL.sub("", _PER_CENT.sub(" %", spelt)))
-    return sign + add_mixed_units(add_large_words(_MODULUS.sub(" mod ", spelt)))
+    return sign + add_mixed_units(
+        add_large_words(replace_mixed_words(_MODULUS.sub(" mod ", spelt)))
+    )
 
 
 def _write_share_of_unit(text: str) -> str:
@@ -370,7 +447,10 @@ def _write_item_as_number(piece: str) -> str:
     return piece if spelt == plain else f"{'-' if plain != piece else ''}{spelt}"
 
 
-_REMARKED = re.compile(r"([-+−]?\d[^()]*?) ?\(([^\W\d][^()]*|\d+ ?%? (?:of|von) [^()]*)\)")
+_REMARKED = re.compile(
+    r"([-+−]?\d[^()]*?) ?\(([^\W\d][^()]*|\d+ ?%? (?:of|von) [^()]*"
+    r"|\d+(?:\.|[.,]\d+)? ?[^\W\d]{3}[^()\d]*)\)"
+)
 _REMARK = re.compile(r"(?<=\d) ?\([^\W\d][^()\d;,]*\)")
 _MINUS = re.compile(r"(?<![^\W\d_])(?:minus|মাইনাস) (?=[.,]?\d)", re.IGNORECASE)
 _LAST_LIST = re.compile(r".*\d.*= ?(\([^()=]+\)|\[[^\[\]=]+\])", re.DOTALL)
@@ -447,18 +527,32 @@ def _write_assigned(
     meant = [find_name(label, names) for label, _ in pairs]
     values = [_JOINED.sub("", value).strip(" ,;") for _, value in pairs]
     once = all(meant) and len(set(meant)) == len(pairs) >= max(count, _FEWEST)
-    if once and all(len(_FOUND.findall(value)) == 1 for value in values):
+    if once and all(len(_FOUND.findall(value)) == 1 or _CHAIN.fullmatch(value) for value in values):
         yield "; ".join(f"{name} = {value}" for name, value in zip(meant, values, strict=True))
 
 
+_CHAIN = re.compile(r"[\d\s.,/+*()−-]+(?:[=≈][\d\s.,/+*()−-]+)+")
+"""One value that is worked out: ``1/31 = 0.032``."""
+
+
 def prove_groups(typed: str) -> str:
-    """Return it without marks of groups, where one number proves them: ``64,000; 1,152,000``."""
-    proof = _GROUPED.search(typed)
+    """Return it without marks of groups, where one number proves them: ``64,000; 1,152,000``.
+
+    The other sign as a decimal one proves them, too: ``7,500; 12.87``.
+    """
+    proof = _GROUPED.search(typed) or (
+        _DECIMAL_BESIDE.search(typed) if _HARD.search(typed) else None
+    )
     if proof is None:
         return typed
-    mark = re.escape(proof[1])
+    sign = proof[1]
+    mark = re.escape(sign if proof.re is _GROUPED else {".": ",", ",": "."}[sign])
     group = re.compile(rf"(?<![\d.,])\d{{1,3}}(?:{mark}\d{{3}})+(?![\d.,]?\d)")
-    return group.sub(lambda m: m[0].replace(proof[1], ""), typed)
+    return group.sub(lambda m: re.sub(mark, "", m[0]), typed)
+
+
+_DECIMAL_BESIDE = re.compile(r"(?<![\d.,])\d+([.,])(?:\d{1,2}|\d{4,})(?![\d.,])")
+_HARD = re.compile(r"[;|\n]| / | (?:and|und|ও|এবং) ")
 
 
 def scan_numbers(text: str) -> tuple[list[str], list[str]]:
@@ -492,7 +586,7 @@ def _find_unit(text: str, start: int) -> tuple[str, int]:
         end = start + tokens[count - 1].end()
         unit = text[start:end].strip().rstrip(".")
         more = len(tokens) > count
-        if unit.lower() in _NO_UNIT_BEFORE_A_WORD and more:
+        if unit.lower().rpartition(" ")[2] in _NO_UNIT_BEFORE_A_WORD and more:
             continue
         if any(map(str.isdigit, unit.replace("^2", "").replace("^3", ""))):
             continue

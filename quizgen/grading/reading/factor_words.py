@@ -21,6 +21,7 @@ _FACTOR = re.compile(
 )
 
 
+_DASH_BETWEEN = re.compile("(?<=[\u0980-\u09ff])[-‐-–](?=[\u0980-\u09ff])")
 _PART_OF = re.compile(
     r"(\d+ ?/ ?\d+) (?:of|von) (?:the|its|that|der|des|dem) [^\W\d_]+(?: [^\W\d_]+)?"
 )
@@ -71,7 +72,7 @@ def read_factor(typed: str) -> str:
     ``4 times shorter`` is a quarter, ``twice as wide`` is 2. What is compared is not looked at,
     but in which direction is.
     """
-    text = " ".join(typed.split()).strip(" .!").casefold()
+    text = _DASH_BETWEEN.sub(" ", " ".join(typed.split()).strip(" .!").casefold())
     share = _list_shares().get(text) or _list_shares().get(
         re.sub(r"^(?:a|an|one|ein|eine) ", "", text)
     )

@@ -109,7 +109,6 @@ _ARGUMENTS = re.compile(rf"{MULTI_ARGUMENT} ?\([^()]*\d,\d")
 _POINTED = re.compile(r"\d\.\d+,(?!\d*\.\d*,)|,\d+\.\d|,\d*\.\d")
 """A comma beside a number with a decimal point: it can only stand between arguments."""
 _GROUPED = re.compile(r"\d[. ]\d{3}(?!\d)")
-_LITERAL = re.compile(r"(?<![^\W\d_])(?<![\w'])\d+(?:[.,]\d+)*")
 
 
 class TypedFormula(msgspec.Struct, frozen=True):

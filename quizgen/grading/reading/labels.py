@@ -16,7 +16,7 @@ from quizgen.maths.notation.names import GREEK, fold_name
 SIGNS = "\u0981-\u0983\u09bc\u09be-\u09cd\u09d7"
 """Signs of Bangla vowels and joined letters: parts of words that are no letters of their own."""
 
-NAME = rf"[^\W\d_](?:[^\W_]|[{SIGNS}])*'*(?:_[^\W_]+'*)*"
+NAME = rf"[^\W\d_](?:[^\W_]|[{SIGNS}])*(?:'+\d*)?(?:_[^\W_]+'*)*"
 """A name as it is typed: ``u``, ``p'_x``, ``k_1``, ``মান``."""
 
 _WORD = rf"(?:[^\W\d_]|[{SIGNS}]){{2,}}"
@@ -127,8 +127,14 @@ def _find_called_name(typed: str, names: AskedNames) -> str:
 
 def _is_held_by(label: str, words: str) -> bool:
     """Return whether all words of a label stand among others."""
-    wanted = {*_split_label(label)}
-    return bool(wanted) and wanted <= {*_split_label(words)}
+    wanted, known = {*_split_label(label)}, _split_label(words)
+    if len(wanted) == 1 and len(label) >= LEAST_SHORTENED:  # ``sat`` is the saturation
+        return any(word.startswith(one) for one in wanted for word in known)
+    return bool(wanted) and wanted <= {*known}
+
+
+LEAST_SHORTENED = 3
+"""Letters of a word that are enough of it."""
 
 
 def _split_label(text: str) -> list[str]:

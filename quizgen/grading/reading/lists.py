@@ -14,6 +14,7 @@ from quizgen.maths.notation.names import FUNCTIONS
 BRACKETS = {"(": ")", "[": "]", "{": "}", "<": ">"}
 _HARD = re.compile(r"[;|\n]")
 _COMMA = re.compile(r",")
+_SLASH = re.compile(r" / ")
 _BLANK_BEFORE = re.compile(r" +(?=[,;|])")
 _JOINING = re.compile(r"[,;]? (?:and|und|&|এবং|ও|আর) ")
 _UNIT_BEHIND = re.compile(r"[^;,|\d(\[{]*| ?[\[(][^;,|\d\[\](){}]+[\])]")
@@ -176,6 +177,9 @@ def _split_items(source: SourceText, count: int | None, decimal: str) -> list[So
         named = list(_split_at_separator(source, NAMED_NEXT))
         if len(named) > 1 and (count is None or len(named) == count):
             return named
+    slashed = source.text.split(" / ")
+    if count == len(slashed) > 1 and all(map(str.strip, slashed)):
+        return list(_split_at_separator(source, _SLASH))
     commas = source.text.count(",")
     if not commas:
         spaced = list(_split_at_separator(source, _SPACED))

@@ -17,6 +17,9 @@ _NESTED = re.compile(
     r"[({\[]?\s*(?:\([^()]*\)\s*,?\s*){2,}[)}\]]?|\{\s*(?:\{[^{}]*\}\s*,?\s*)+\}|(?:\|[^|]+\|\s*){2,}",
 )
 """Rows in round or curly brackets, or between bars."""
+_ROWS_IN_BRACKETS = re.compile(r"(?:[(\[][^()\[\]]*[;|][^()\[\]]*[)\]]\s*[,;]?\s*){2,}")
+"""Rows whose entries are parted by what parts rows elsewhere: ``(12; -14), (14; 27)``."""
+_BRACKETS_BETWEEN = re.compile(r"(?<=[)\]])\s*[,;]?\s*(?=[(\[])")
 _NAME = re.compile(r"^\s*[^\W\d_]\w{0,9}\s*=\s*(?=\S)")
 _ENTRIES = re.compile(r"\s*&\s*|,\s+|\t+")
 
@@ -36,7 +39,10 @@ def split_matrix(typed: str, decimal: str = "auto") -> list[list[str]]:
     text = _NESTED.sub(_square_rows, text)
     while text[:1] in {"[", "("} and text[-1:] in {"]", ")"}:
         text = text[1:-1].strip()
-    rows = [_split_row(row, decimal) for row in map(_strip_row, _ROWS.split(text)) if row]
+    cut = _ROWS if _ROWS_IN_BRACKETS.fullmatch(text) is None else _BRACKETS_BETWEEN
+    if cut is _BRACKETS_BETWEEN:
+        text = re.sub(r"[;|]", "&", text)
+    rows = [_split_row(row, decimal) for row in map(_strip_row, cut.split(text)) if row]
     if not rows or len({len(row) for row in rows}) != 1:
         raise FormulaReadError("matrix-expected", 1, typed.strip()[:60])
     return rows

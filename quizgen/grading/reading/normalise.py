@@ -32,14 +32,14 @@ LONE_LETTER = re.compile("(?<![\u0980-\u09ff])[ক-ঞ](?![\u0980-\u09ff])")
 """A Bangla letter that is no part of a word."""
 
 PICTURES = re.compile(
-    r"(?:(?<=[\s,;])|(?<=[:=()→–-])|^)(?:picture|photo|image|figure|version|number|no\.?|nr\.?|bild|foto|ছবি|চিত্র|নম্বর|নং)s?(?=\s|$)",
+    r"(?:(?<=[\s,;])|(?<=[:=()→–-])|^)(?:picture|pict?|photo|image|figure|version|number|no\.?|nr\.?|bild|foto|ছবি|চিত্র|নম্বর|নং)s?(?=\s|$)",
     re.IGNORECASE,
 )
 """Words before the number of a picture, which is its place or its label."""
 
-_APPROXIMATE = r"ca\.|approx(?:\.|imately)?|about|circa|etwa|ungefähr|rund|প্রায়|প্রায়"
+APPROXIMATE = r"ca\.|approx(?:\.|imately)?|about|circa|etwa|ungefähr|rund|প্রায়|প্রায়"
 
-_ABOUT = re.compile(rf"^ *(?:≈|~|∼|=|(?:{_APPROXIMATE})(?![^\W\d_])) *", re.IGNORECASE)
+_ABOUT = re.compile(rf"^ *(?:≈|~|∼|=|(?:{APPROXIMATE})(?![^\W\d_])) *", re.IGNORECASE)
 
 _IS = r"(?: *(?:is|ist|lautet|হলো|হল|হচ্ছে)(?![^\W_]) *[:=]? *| *[:=ঃ] *)"
 ANSWER = re.compile(

@@ -182,6 +182,18 @@ def replace_only_number_word(text: str) -> str:
     return f"{text[:start]}{digits}{text[end:]}"
 
 
+def replace_mixed_words(text: str) -> str:
+    """Return ``three hours five minutes`` with digits; the text itself if it is no such sum."""
+    spoken, position = "", 0
+    while (word := _SPOKEN_ANYWHERE.search(text, position)) is not None:
+        number = _read_spoken_number(text[word.start() :])
+        end = word.start() + number[1] if number else word.end()
+        spoken += text[position : word.start()] + (number[0] if number else word[0])
+        position = end
+    spoken += text[position:]
+    return spoken if add_mixed_units(spoken) != spoken else text
+
+
 _SPOKEN_ANYWHERE = re.compile(r"(?<![\w\u0980-\u09ff])[^\W\d_](?:[^\W\d_]|[\u0980-\u09ff])*")
 
 

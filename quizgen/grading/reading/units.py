@@ -123,6 +123,13 @@ WORDS = {
     "db": "dB",
     "DB": "dB",
     "Db": "dB",
+    "b": "bit",
+    "kph": "km/h",
+    "kmh": "km/h",
+    "ইভি": "eV",
+    "ইলেকট্রন-ভোল্ট": "eV",
+    "ইলেকট্রন ভোল্ট": "eV",
+    "ইলেকট্রনভোল্ট": "eV",
     "hz": "Hz",
     "HZ": "Hz",
 }
@@ -289,9 +296,10 @@ def read_unit(text: str) -> TypedUnit:
     FormulaError
         If a name in it is not listed.
     """
-    return _parse_typed_unit(active_units(), _INTO.sub(r"\1", text.strip()))
+    return _parse_typed_unit(active_units(), _MU.sub("µ", _INTO.sub(r"\1", text.strip())))
 
 
+_MU = re.compile(r"^(?:mu|micro|mikro) ?(?=[ms]$)")
 _INTO = re.compile(r"^\(?in +([^()]+)\)?$")
 """The unit that a number is said to be in, ``(in degrees)``: no inch."""
 
@@ -323,8 +331,8 @@ def _parse_compound_unit(text: str) -> str:
     text = _BRACKETS.sub(r"\1", text)
     if (text[:1], text[-1:]) in {("(", ")"), ("[", "]")} and text.count(text[0]) == 1:
         text = text[1:-1]
-    text = re.sub(r"^(?:per|pro)\s+", "1/", text)
-    text = re.sub(r"\s+(?:per|pro)\s+|\s*প্রতি\s*", "/", text)
+    text = re.sub(r"^(?:per|pro|je)\s+", "1/", text)
+    text = re.sub(r"\s+(?:per|pro|je)\s+|\s*প্রতি\s*", "/", text)
     text = re.sub(r" *([*/·]) *", r"\1", text)
     text = _SQUARE.sub(r"\1^2", text.replace("**", "^"))
     text = _SQUARED.sub(r"\1^2", text)

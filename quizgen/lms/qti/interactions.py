@@ -54,7 +54,7 @@ class RenderedInteraction:
     """The pieces of an item that an interaction becomes.
 
     ``processing`` are the rules of a response that was given, ``outcomes`` the declarations that
-    ``feedback`` depends on.
+    ``feedback`` depends on. ``inline`` is the field alone, if it can stand in a sentence.
     """
 
     declaration: Markup
@@ -62,6 +62,7 @@ class RenderedInteraction:
     processing: Markup = _EMPTY
     outcomes: Markup = _EMPTY
     feedback: Sequence[FeedbackElement] = ()
+    inline: Markup = _EMPTY
 
 
 @singledispatch
@@ -136,7 +137,10 @@ def _render_typed(
         earned = rules.set_score(rules.points * share) if share else _EMPTY
         cases.append((condition, earned + rules.set_feedback(name, one.value)))
     outcomes = rules.declare_feedback(name) if feedback else _EMPTY
-    return RenderedInteraction(declaration, body, rules.first_case(cases), outcomes, feedback)
+    processing = rules.first_case(cases)
+    return RenderedInteraction(
+        declaration, body, processing, outcomes, feedback, _text_entry(rules)
+    )
 
 
 @render_interaction.register
@@ -192,13 +196,22 @@ def _render_options(
     if elements:
         outcomes = rules.declare_feedback(name, cardinality)
         processing += rules.set_outcome(name, rules.response_variable())
-    choices = [
-        rules.tag("simpleChoice", {"identifier": identify(letter)}, shown)
-        for letter, shown in options.items()
-    ]
-    how = {"shuffle": "false", "maxChoices": 0 if many else 1}
-    body = rules.interaction("choiceInteraction", how, *choices)
-    return RenderedInteraction(declaration, body, processing, outcomes, elements)
+    body, inline = (
+        rules.interaction(
+            f"{name}Interaction",
+            {"shuffle": "false", **how},
+            *(rules.tag(choice, {"identifier": identify(mark)}, options[mark]) for mark in options),
+        )
+        for name, choice, how in (
+            ("choice", "simpleChoice", {"maxChoices": 0 if many else 1}),
+            ("inlineChoice", "inlineChoice", dict[str, float]()),
+        )
+    )
+    if many or any(
+        "<" in shown for shown in options.values()
+    ):  # a list drops down with words alone
+        inline = _EMPTY
+    return RenderedInteraction(declaration, body, processing, outcomes, elements, inline)
 
 
 @render_interaction.register

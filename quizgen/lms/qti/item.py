@@ -16,8 +16,9 @@ from quizgen.lms.items import ExportItem
 from quizgen.lms.manifest import ManifestQuestion
 from quizgen.lms.manifest_writer import response_field
 from quizgen.lms.markup import (
+    fill_marks,
     image_path,
-    part_html,
+    mark_fields,
     pictures_from,
     solution_html,
     stem_html,
@@ -139,11 +140,17 @@ def _default_value(value: float, dialect: Dialect) -> Markup:
 
 def _item_body(item: ExportItem, groups: list[list[ItemPart]], dialect: Dialect) -> Markup:
     """Return what a learner sees: stem, parts and their interactions."""
-    body = stem_html(item, _file_address)
-    for (part, interactions), group in zip(item.parts, groups, strict=True):
-        body += part_html(part, interactions, item.lang, _file_address)
-        body += Markup("").join(row.rendered.body for row in group)
-    return dialect.tag("itemBody", {}, body)
+    in_line = [
+        Markup("; ").join(row.rendered.inline for row in group)
+        if part.field.near is not None and all(row.rendered.inline for row in group)
+        else ""
+        for (part, _), group in zip(item.parts, groups, strict=True)
+    ]
+    below = [Markup("").join(row.rendered.body for row in group) for group in groups]
+    placed = {place for place, field in enumerate(in_line) if field}
+    text = mark_fields(item.parts, item.lang, _file_address, placed)
+    fields = [field or other for field, other in zip(in_line, below, strict=True)]
+    return dialect.tag("itemBody", {}, stem_html(item, _file_address) + fill_marks(text, fields))
 
 
 def _response_processing(

@@ -215,7 +215,7 @@ def _format_symbol(word: str) -> str:
 
 
 def _format_braced_constant(text: str) -> str:
-    """Return a number in braces; with a sign or a bar it needs brackets inside a formula."""
+    """Return the number that stood in braces; one with a sign or a bar gets round brackets."""
     value = format_number(text.removesuffix("/1").removesuffix("."))
     return f"({value})" if {MINUS, "/"} & {*value} else value
 

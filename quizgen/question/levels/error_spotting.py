@@ -94,7 +94,7 @@ class FaultySolution:
             for each, of in ideas.items()
         }
         reasons = [one for of in said.values() for one in _SENTENCES.split(of["reason"])]
-        accept = {"step": names, "reason": reasons}
+        accept = {"step": [*names, *(of["step"] for of in said.values())], "reason": reasons}
         spec = decode_spec(RubricSpec, {
             "kind": "rubric",
             "full": len(accept),

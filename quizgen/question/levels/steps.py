@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 from flint import fmpq
 
 from quizgen import typeset
+from quizgen.bank.form_comparison import APART
 from quizgen.bank.markdown import (
     Block,
     CodeBlock,
@@ -23,7 +24,6 @@ from quizgen.bank.markdown import (
     leaves,
     slot_names,
 )
-from quizgen.bank.misconceptions import APART
 from quizgen.bank.sampler import shuffle
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import MathError

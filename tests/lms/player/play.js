@@ -18,6 +18,10 @@ window.typed = {
     input.value = value;
     input.dispatchEvent(new Event("change"));
   },
+  "qti-inline-choice-interaction": (field, value) => {
+    field.shadowRoot.querySelector("[part=trigger]").click();
+    field.querySelector(`[identifier="${value}"]`).click();
+  },
   "qti-choice-interaction": (field, value) => {
     for (const choice of [value].flat()) field.querySelector(`[identifier="${choice}"]`).click();
   },

@@ -1,0 +1,69 @@
+"""A class is marked many times: what was judged is known, and nothing else comes of it."""
+
+from __future__ import annotations
+
+import shutil
+
+import pytest
+from made import made, run
+
+from quizgen.classes import grading_run
+from quizgen.classes.grading_history import GradingHistory
+from quizgen.classes.judged_answers import FILE
+
+ROWS = [("101", "Ada", "en"), ("102", "Ben", "en")]
+
+
+@pytest.fixture(scope="module")
+def marked(tmp_path_factory):
+    folder = made(tmp_path_factory.mktemp("class"), ROWS)
+    path = folder.parent / "in.csv"
+    path.write_text("id,1a,1b,2a\n101,A,3 mm,no idea\n102,B,,4\n", "utf-8")
+    run("class", "mark", folder, path)
+    return folder
+
+
+@pytest.fixture
+def folder(marked, tmp_path):
+    return shutil.copytree(marked, tmp_path / "class")
+
+
+@pytest.fixture
+def judged(monkeypatch):
+    """Whose answers were judged anew."""
+    found, judge = [], grading_run.judge_submission
+    monkeypatch.setattr(grading_run, "judge_submission",
+                        lambda key, sheet, book: (found.append(sheet.student), judge(key, sheet, book))[1])  # fmt: skip
+    return found
+
+
+def parts(folder, student):
+    return next(one.parts for one in GradingHistory(folder).current() if one.student == student)
+
+
+def test_what_is_as_it_was_is_judged_once_and_rulings_hold_all_the_same(folder, judged):
+    run("class", "rule", folder, "give", "1b")
+    run("class", "mark", folder)
+    assert judged == []
+    given = [part for part in parts(folder, "101") if part.id == "1b"]
+    assert [(part.marks, part.by.split()[0]) for part in given] == [(given[0].points, "give")]
+
+
+def test_without_the_file_and_with_a_forged_one_the_marks_are_the_same(folder, judged):
+    before = {student: parts(folder, student) for student, *_ in ROWS}
+    kept = (folder / FILE).read_bytes()
+    assert b'"marks":0.0' in kept
+    for data in (b"", b"\xff{", kept.replace(b'"marks":0.0', b'"marks":9.0')):
+        judged.clear()
+        (folder / FILE).write_bytes(data)
+        run("class", "mark", folder)
+        assert sorted(judged) == ["101", "102"]
+        assert {student: parts(folder, student) for student, *_ in ROWS} == before
+
+
+def test_another_answer_is_judged_anew(folder, judged):
+    answers = folder / "answers" / "in.csv"
+    answers.write_text(answers.read_text("utf-8").replace("3 mm", "3.5 mm"), "utf-8")
+    run("class", "mark", folder)
+    assert judged == ["101"]
+    assert next(part.typed for part in parts(folder, "101") if part.id == "1b") == "3.5 mm"
