@@ -8,6 +8,7 @@ sentence and its points, criterion by criterion.
 from __future__ import annotations
 
 import tomllib
+from fractions import Fraction
 from functools import cache
 from pathlib import Path
 
@@ -287,6 +288,17 @@ def test_the_clause_that_is_gone_by_is_quoted():
         "I think the DoF shrinks", "the image gets brighter",
     ]  # fmt: skip
     assert made.points == parse_written_number("2")
+
+
+@pytest.mark.parametrize(("worth", "said"), [(None, "1 of 2"), (Fraction(3), "1.5 of 3")])
+def test_what_is_recognised_is_counted_in_the_points_of_the_part(worth, said):
+    from quizgen.grading.judge import explain_verdict, judge_answer
+    from quizgen.grading.options import GradingOptions
+    from quizgen.kinds.grade import load_spec
+
+    spec = load_spec(SPEC)
+    verdict = judge_answer(spec, "The depth of field shrinks.", GradingOptions(points=worth))
+    assert said in explain_verdict(spec, verdict, "en").message
 
 
 @pytest.mark.parametrize("word", ["পড়তে", "reading", "sensing", "lighted"])
