@@ -13,7 +13,8 @@ from collections.abc import Iterator
 
 from quizgen.cards.apkg import deck_name
 from quizgen.cards.deck import Deck
-from quizgen.cards.note import side_to_html, side_to_text
+from quizgen.cards.markup import to_card_html
+from quizgen.cards.note import side_to_text
 from quizgen.core.untrusted import escape_csv_formula
 
 COLUMNS = ("id", "deck", "kind", "front", "back", "tags")
@@ -37,7 +38,7 @@ def card_rows(deck: Deck, *, rich: bool) -> Iterator[tuple[str, ...]]:
         for name, front, back in note.sides():
             if rich:
                 main = note.langs[0]
-                sides = (side_to_html(front, main, ask=True), side_to_html(back, main, ask=False))
+                sides = (to_card_html(front, main, ask=True), to_card_html(back, main, ask=False))
             else:
                 sides = (side_to_text(front, ask=True), side_to_text(back, ask=False))
             number = f"{note.guid}-{name.lower()}"

@@ -190,11 +190,6 @@ def _format_tag(name: str) -> str:
     return _NO_TAG.sub("_", name)
 
 
-def side_to_html(blocks: CardBlocks, lang: str, *, ask: bool) -> str:
-    """Return one side of a card as HTML, without Anki's own marks; ``ask`` hides clozes."""
-    return to_card_html(blocks, lang, ask=ask)
-
-
 def side_to_text(blocks: CardBlocks, *, ask: bool) -> str:
     """Return one side of a card as plain text; ``ask`` leaves hidden sides out."""
     return to_card_text(blocks, ask=ask).strip()

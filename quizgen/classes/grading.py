@@ -283,11 +283,11 @@ def _iter_judged_parts(
             yield JudgedPart(blank, blank_group(item, sheet.student))
             continue
         rulings = book.rulings_for(item, sheet.student)
-        found = marker.judge_part(_with_tolerance(part, item, rulings), typed)
+        found = marker.judge_part(replace_tolerance(part, item, rulings), typed)
         yield _describe_judged_part(found, part, item, sheet.student)
 
 
-def _with_tolerance(part: KeyPart, item: str, rulings: Iterable[Ruling]) -> KeyPart:
+def replace_tolerance(part: KeyPart, item: str, rulings: Iterable[Ruling]) -> KeyPart:
     """Return the part with the tolerance of the last ruling about one; unchanged without."""
     stated = [one.tolerance() for one in rulings if one.what == TOLERANCE]
     if not stated:

@@ -19,10 +19,12 @@ from quizgen.classes.grading import (
     StudentMarks,
     Submission,
     apply_rulings,
+    item_name,
     judge_submission,
+    replace_tolerance,
 )
 from quizgen.classes.grading_history import GradingHistory, GradingOutcome, TotalChange
-from quizgen.classes.judged_answers import JudgedAnswers, compute_judging_digest
+from quizgen.classes.judged_answers import PASSING, JudgedAnswers, compute_judging_digest
 from quizgen.classes.key_index import KeyIndex, read_key_at, read_line_at
 from quizgen.classes.lock import lock_folder
 from quizgen.classes.manual_grading import (
@@ -55,8 +57,6 @@ from quizgen.locale import FIRST
 
 CHUNK = 50
 """Students of a job."""
-PASSING = frozenset({"unchecked", "program-time"})
-"""What is said of a program where the machine had no time for it: to be tried again."""
 
 
 class SubmissionToGrade(NamedTuple):
@@ -176,7 +176,8 @@ def _grade_locked_folder(
     outcome = history.write(_iter_marks(chunks, counts, known), keep=keep)
     if filled and keep:  # now: a run that ends before this one does reads the same queue again
         note_rulings(folder.path, filled)
-    groups = group_cases(decision_cases(undecided_answers(history.current()), keys.key, FIRST))
+    asked = undecided_answers(history.current())
+    groups = group_cases(decision_cases(asked, keys.key, FIRST, known))
     if keep:
         known.write()
         write_queue(folder.path, groups, kept)
@@ -251,6 +252,22 @@ def check_rulings(rulings: Iterable[Ruling], keys: KeyIndex) -> None:
         if one.student and one.student not in keys.places:
             raise ClassError(f"{file}: {one.what} {one.item}: student: nobody of this class has "
                              f"the number {one.student!r}")  # fmt: skip
+
+
+def check_tolerance(ruling: Ruling, keys: KeyIndex) -> None:
+    """Raise ``ClassError`` if a ruling about a tolerance is about an item that has none.
+
+    Raises
+    ------
+    ClassError
+        Before marking would end with it.
+    """
+    for student in keys.places:
+        for question in keys.key(student).questions:
+            for part in question.parts:
+                if item_name(question, part) == ruling.item:
+                    replace_tolerance(part, ruling.item, [ruling])
+                    return
 
 
 def _iter_jobs(

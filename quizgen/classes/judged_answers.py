@@ -22,6 +22,8 @@ from quizgen.core.files import PRIVATE, write_all
 FILE = ".judged.jsonl"
 READERS = ("python-flint", "mpmath", "msgspec", "numpy", "rapidfuzz")
 """Whose versions may change what is read."""
+PASSING = frozenset({"unchecked", "program-time"})
+"""What is said of a program where the machine had no time for it: to be tried again."""
 T = TypeVar("T")
 
 
@@ -66,15 +68,17 @@ class JudgedAnswers:
         if line is None or line.seal != self._seal(name, bytes(line.found)):
             return None
         try:
-            found = msgspec.json.decode(line.found, type=shape)
-        except msgspec.DecodeError:
+            found = msgspec.json.decode(
+                line.found, type=shape, dec_hook=lambda kind, text: kind(text)
+            )
+        except (msgspec.DecodeError, ValueError, ZeroDivisionError):
             return None
         self._now[name] = bytes(line.found)
         return found
 
     def keep(self, name: str, found: object) -> None:
         """Note something under a name for the next run."""
-        self._now[name] = msgspec.json.encode(found)
+        self._now[name] = msgspec.json.encode(found, enc_hook=str)
 
     def write(self) -> None:
         """Write what this run found or took; what neither named is gone."""

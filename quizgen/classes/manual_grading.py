@@ -16,8 +16,11 @@ from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
 
+import msgspec
+
 from quizgen.classes.agreement import is_settlement
 from quizgen.classes.grading import StudentMarks, item_name, stands_alone
+from quizgen.classes.judged_answers import PASSING, JudgedAnswers, compute_judging_digest
 from quizgen.classes.rulings import (
     DECIDE,
     SECOND,
@@ -26,6 +29,7 @@ from quizgen.classes.rulings import (
     latest_rulings,
     read_filled_rows,
 )
+from quizgen.core.cache import compute_digest
 from quizgen.core.errors import ClassError, FormulaError
 from quizgen.core.files import PRIVATE, write_all
 from quizgen.core.untrusted import format_csv
@@ -183,7 +187,10 @@ def undecided_answers(
 
 
 def decision_cases(
-    answers: Iterable[AnswerGroupMember], key_of: Callable[[str], AnswerKey], lang: str
+    answers: Iterable[AnswerGroupMember],
+    key_of: Callable[[str], AnswerKey],
+    lang: str,
+    known: JudgedAnswers | None = None,
 ) -> list[DecisionCase]:
     """Return each group of answers with the key and what helps to decide, in the same order.
 
@@ -194,6 +201,8 @@ def decision_cases(
         The key of a student's paper.
     lang : str
         Of what is said about them.
+    known : JudgedAnswers, optional
+        What was said of them before, and to keep it in.
     """
     asked = list(answers)
 
@@ -205,13 +214,40 @@ def decision_cases(
         }
 
     by_student = sorted(range(len(asked)), key=lambda at: asked[at].student)
-    found = {at: _build_review_case(asked[at], parts(asked[at].student)[asked[at].item], lang)
-             for at in by_student}  # fmt: skip
+    found = {}
+    for at in by_student:
+        answer = asked[at]
+        part = parts(answer.student)[answer.item]
+        found[at] = (
+            _recall_review_case(answer, part, lang, known)
+            if known
+            else _build_review_case(answer, part, lang)[0]
+        )
     return [found[at] for at in range(len(asked))]
 
 
-def _build_review_case(answer: AnswerGroupMember, part: KeyPart, lang: str) -> DecisionCase:
-    """Return an answer with its key, the criteria recognised, and the points they suggest."""
+def _recall_review_case(
+    answer: AnswerGroupMember, part: KeyPart, lang: str, known: JudgedAnswers
+) -> DecisionCase:
+    """Return the case of an answer, as it was built before if nothing has changed."""
+    said = msgspec.json.encode((lang, part, answer.item, answer.typed, answer.worth))
+    name = compute_digest(compute_judging_digest(), b"case", said)
+    case = known.get(name, DecisionCase)
+    if case is not None:
+        return replace(case, answer=answer)
+    case, note = _build_review_case(answer, part, lang)
+    if note not in PASSING:
+        known.keep(name, case)
+    return case
+
+
+def _build_review_case(
+    answer: AnswerGroupMember, part: KeyPart, lang: str
+) -> tuple[DecisionCase, str]:
+    """Return an answer with its key, the criteria recognised, and the points they suggest.
+
+    Beside it stands the note of the verdict, if it was judged once more.
+    """
     spec = part.parse_spec(proven=True)
     alone = stands_alone(part.spec["kind"], answer.typed)
     if not isinstance(spec, RubricSpec):
@@ -220,7 +256,8 @@ def _build_review_case(answer: AnswerGroupMember, part: KeyPart, lang: str) -> D
         share = verdict.fields.get("share")  # of a derivation whose reasons a person reads
         worth = share * Fraction(answer.worth) if isinstance(share, Fraction) else None
         suggested = None if worth is None else round_to_quarters(worth)
-        return DecisionCase(answer, spec.show_in(lang), verdict.message, suggested, alone=alone)
+        shown = spec.show_in(lang)
+        return DecisionCase(answer, shown, verdict.message, suggested, alone=alone), judged.note
     made, ideas = spec.suggest(answer.typed), spec.list_ideas(lang)
     scale = Fraction(answer.worth) / parse_written_number(spec.full)
     criteria = tuple(
@@ -238,7 +275,8 @@ def _build_review_case(answer: AnswerGroupMember, part: KeyPart, lang: str) -> D
     )
     suggested = round_to_quarters(made.points * scale)
     shown = "; ".join(f"{one.name}: {one.status}" for one in made.findings)
-    return DecisionCase(answer, spec.show_in(lang), shown, suggested, criteria, made.spots, alone)
+    key = spec.show_in(lang)
+    return DecisionCase(answer, key, shown, suggested, criteria, made.spots, alone), ""
 
 
 def group_cases(found: Iterable[DecisionCase]) -> list[list[DecisionCase]]:

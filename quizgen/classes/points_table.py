@@ -38,16 +38,25 @@ def read_points_table(path: Path, keys: KeyIndex, who: str, comment: str) -> lis
     if table is None or table.is_long:
         raise ClassError(f"{path}: the first row names a column 'id', and parts: id,1a,1b")
     found: list[Ruling] = []
+    lines: dict[str, int] = {}
     for line, cells, typed in table.students():
         try:
             code = cells.get("code", "").strip()
             student = keys.find_by_code(code) if code else keys.find_student(cells.get("id", ""))
+            _require_once(student, line, lines)
             found += _iter_row_points(student, typed, keys)
         except (ClassError, KeyFileError) as error:
             raise ClassError(f"{path}: line {line}: {error}") from None
     if not found:
         raise ClassError(f"{path}: has no points")
     return [msgspec.structs.replace(one, who=who, comment=comment) for one in found]
+
+
+def _require_once(student: str, line: int, lines: dict[str, int]) -> None:
+    """Raise ``ClassError`` if a student stands in an earlier line; ``lines`` are those so far."""
+    before = lines.setdefault(student, line)
+    if before != line:
+        raise ClassError(f"{student} stands in line {before}, too")
 
 
 def _iter_row_points(student: str, typed: Mapping[str, str], keys: KeyIndex) -> Iterator[Ruling]:

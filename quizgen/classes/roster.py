@@ -38,7 +38,9 @@ COLUMNS = ("id", "name", "lang", "extra", "group", "seat", "bonus")
 FIRST_NAME, LAST_NAME = "first name", "last name"
 ALSO_CALLED = {
     "id": ("matriculation", "matriculation number", "student number", "student id", "matrikel",
-           "matrikelnr", "matrikel-nr", "matrikel-nr.", "matrikelnr.", "matrikelnummer", "mtknr"),
+           "matrikelnr", "matrikel-nr", "matrikel-nr.", "matrikelnr.", "matrikelnummer", "mtknr",
+           "matrnr", "matrnr.", "matr-nr", "matr.-nr.", "matr.-nr", "matr.nr.", "matr. nr.",
+           "matriculation no.", "matriculation no", "student no."),
     "name": ("full name",),
     FIRST_NAME: ("firstname", "given name", "forename", "vorname"),
     LAST_NAME: ("lastname", "surname", "family name", "nachname", "familienname"),

@@ -21,7 +21,7 @@ from quizgen.classes.roster import clean_cell, find_roster_column
 from quizgen.classes.rulings import read_filled_rows
 from quizgen.core.errors import KeyFileError, QuizgenError
 from quizgen.core.files import PRIVATE, write_all
-from quizgen.core.spreadsheets import iter_spreadsheet_rows
+from quizgen.core.spreadsheets import is_cell_error, iter_spreadsheet_rows
 from quizgen.core.untrusted import (
     LARGEST_PICTURE,
     escape_control_characters,
@@ -241,10 +241,11 @@ class Submissions:
             try:
                 student = self._identify_student(cells.get("code", ""), cells.get("id", ""))
                 parts = self._name_parts(student)
+                answers, unknown = parts.sort_answers(typed)
+                _check_cells(answers)
             except QuizgenError as error:
                 self._add_problem(table.path, f"line {line}: {error}")
                 continue
-            answers, unknown = parts.sort_answers(typed)
             about = *_read_language_and_decimal(cells), self._name_file(table.path)
             sheet = Submission(student, answers, *about, _parse_time(cells.get("minutes", "")))
             read.append((line, sheet, {name: typed[name].strip() for name in unknown}))
@@ -325,6 +326,16 @@ def _sort_answers(sheet: Submission) -> tuple[tuple[str, str], ...]:
     )
 
 
+def _check_cells(typed: Mapping[str, str]) -> None:
+    """Raise ``KeyFileError`` if a spreadsheet has changed what was typed."""
+    for name, text in typed.items():
+        if is_cell_error(text):
+            raise KeyFileError(
+                f"{safe_echo(name)} is {text.strip()}: a spreadsheet has made something else of "
+                "what was typed; format the column as text and type it again"
+            )
+
+
 def _simplify_student_id(student: str) -> str:
     """Return an id without capitals and leading zeros, as spreadsheets mangle it."""
     return student.casefold().lstrip("0")
@@ -380,9 +391,12 @@ class AnswerTable:
             raise KeyFileError("is empty")
         head = [_name_column(cell) for cell in cells]
         if not {"id", "code"} & {*head}:
-            if path.suffix.lower() != ".csv":
-                raise KeyFileError("the first row names no column 'id' or 'code'")
-            return None
+            if path.suffix.lower() == ".csv" and "part" in head:
+                return None
+            raise KeyFileError(
+                "no column is called 'id' (or Matrikelnummer, student number, ...) or 'code'; "
+                f"there are {safe_echo(', '.join(filter(None, head)), 80)}"
+            )
         named = [name for name in head if name and not name.startswith(NOTE)]
         if twin := next((name for name in named if named.count(name) > 1), ""):
             raise KeyFileError(f"two columns are called {safe_echo(twin)!r}")
@@ -396,7 +410,10 @@ class AnswerTable:
         """Yield line number and cells by column of each row."""
         for line, row in self.rows:
             if any(map(str.strip, row[len(self.head) :])):
-                raise KeyFileError(f"line {line}: more cells than columns")
+                raise KeyFileError(
+                    f"line {line}: more cells than columns (an answer that holds the separator "
+                    "stands in quotation marks)"
+                )
             cells = list(zip(self.head, map(unescape_csv_formula, row), strict=False))
             if any(text.strip() for name, text in cells if not name):
                 raise KeyFileError(f"line {line}: something stands in a column without a name")

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import sys
-import tomllib
 from collections.abc import Sequence
 from contextlib import suppress
 from itertools import chain
 from pathlib import Path
 
 from quizgen.core.errors import QuizgenError
+from quizgen.core.untrusted import parse_toml
 from quizgen.locale import FIRST
 
 LANGUAGE = "--lang"
@@ -56,8 +56,8 @@ def _find_option(arguments: Sequence[str], option: str) -> str:
 def _find_lang(arguments: Sequence[str]) -> str:
     """Return the language of the class or of the bank that a command line names; else empty."""
     for file in (Path(argument, CLASS) for argument in arguments):
-        with suppress(OSError, ValueError):
-            return str(tomllib.loads(file.read_text("utf-8")).get("lang", ""))
+        with suppress(OSError, ValueError, QuizgenError):  # the error that is told may be of it
+            return str(parse_toml(file.read_text("utf-8"), file, QuizgenError).get("lang", ""))
     bank = _find_option(arguments, "--bank")
     return _find_bank_language(Path(bank, TEMPLATES, "bank.toml")) if bank else ""
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, Unpack
 
@@ -19,15 +20,11 @@ from quizgen.lms import MANIFEST_SUFFIX
 from quizgen.locale import FIRST, list_languages
 
 if TYPE_CHECKING:
+    from quizgen.lms.grading import GradedAttempt
     from quizgen.paper.answer_form import FilledForm
     from quizgen.paper.answer_key import AnswerKey
     from quizgen.paper.grading import PaperResult
-import json
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from quizgen.lms.grading import GradedAttempt
 
 PAGE = "exam.html"
 HEAD = 4096

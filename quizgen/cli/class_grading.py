@@ -175,9 +175,9 @@ def rule(folder: Path, what: str, item: str, **said: str) -> None:
     7b; with use it is a file of the folder answers. Marks change with the next quizgen class mark.
     """
     from quizgen.classes.class_folder import ANSWERS, ClassFolder
-    from quizgen.classes.grading_run import check_rulings
+    from quizgen.classes.grading_run import check_rulings, check_tolerance
     from quizgen.classes.key_index import KeyIndex
-    from quizgen.classes.rulings import USE, Ruling, append_rulings
+    from quizgen.classes.rulings import TOLERANCE, USE, Ruling, append_rulings
 
     keys = KeyIndex(ClassFolder(folder))
     said["who"] = said["who"] or getpass.getuser()
@@ -192,6 +192,8 @@ def rule(folder: Path, what: str, item: str, **said: str) -> None:
     made = Ruling(what, found, **said)
     made.check()
     check_rulings([made], keys)
+    if what == TOLERANCE:
+        check_tolerance(made, keys)
     append_rulings(folder, [made])
     print_sentence(f"{folder}/rulings.csv: {what} {found}. Next: quizgen class mark {folder}")
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import sys
+from base64 import b64encode
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from html import escape
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any, TypedDict, Unpack
@@ -18,23 +20,14 @@ from quizgen.core.errors import InvalidChoiceError
 from quizgen.core.files import write_all
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    from collections.abc import Iterable, Mapping, Sequence
 
-    from quizgen.camera.comparison import Race
+    from quizgen.camera.comparison import Codes, Race
     from quizgen.camera.planner import EffectChoice, EffectSelection, Plan, PreparedScene
     from quizgen.camera.question_photo import QuestionPhoto, Visibility
     from quizgen.camera.setup.scene import Precision
     from quizgen.camera.simulation import Photo
-from base64 import b64encode
-from html import escape
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
-
-    from quizgen.camera.comparison import Codes
-    from quizgen.camera.simulation import Photo
 
 HEAD = ("effect", "", "at most", "took", "")
 """What leaving an effect out can change, in grey levels, and the ms it took."""
@@ -135,11 +128,11 @@ def simulate(scene: str | None, **options: Unpack[SimulateOptions]) -> None:
     if scene is None:
         _list_scenes()
         return
-    check_target(options["compare"])
-    encode = _find_writer(options["out"])
+    check_target(options["compare"], ".html")
+    check_target(options["out"])
     with ProgressLine("simulate:") as told:
         shot = _simulate_scene(scene, options, told)
-        _write_pictures(shot, options, encode)
+        _write_pictures(shot, options)
     report = summarise(shot)
     if options["as_json"]:
         click.echo(json.dumps(report, ensure_ascii=False, indent=1))
@@ -219,15 +212,15 @@ def _parse_selection(options: SimulateOptions) -> EffectSelection:
     return EffectSelection(only, plus, minus)
 
 
-def _write_pictures(
-    shot: SimulatedShot, options: SimulateOptions, encode: Callable[[NDArray[np.uint8]], bytes]
-) -> None:
+def _write_pictures(shot: SimulatedShot, options: SimulateOptions) -> None:
     """Write the picture and the comparison, if files are named for them."""
+    from quizgen.camera.pixels.codecs import WRITERS
+
     out, beside = options["out"], options["compare"]
     if out is not None:
         photo = shot.whole if options["everything"] and shot.whole else shot.photo
         with shot.measure_time("written"):
-            write_all(out.parent, {out.name: encode(photo.pixels())})
+            write_all(out.parent, {out.name: WRITERS[out.suffix.lower()](photo.pixels())})
     if beside is not None:
         told = (REALLY, *_iter_table_rows(shot))
         page = comparison_file(
@@ -264,19 +257,6 @@ def _list_scenes() -> None:
 
     for path in sorted(SCENES.glob("*.toml")):
         click.echo(f"{path.stem:14} {load_scene(path)[0].title}")
-
-
-def _find_writer(target: Path | None) -> Callable[[NDArray[np.uint8]], bytes]:
-    """Return the encoder for a file's suffix.
-
-    Called before anything is computed: an unknown suffix must not cost a rendering.
-    """
-    from quizgen.camera.pixels.codecs import WRITERS
-
-    ending = ".png" if target is None else target.suffix.lower()
-    if ending not in WRITERS:
-        raise InvalidChoiceError(f"cannot write {target} (endings: {', '.join(WRITERS)})")
-    return WRITERS[ending]
 
 
 def summarise(shot: SimulatedShot) -> dict[str, Any]:
@@ -445,19 +425,25 @@ th, td { text-align: left; padding: .2em .8em .2em 0; border-bottom: 1px solid #
 """
 
 
-def check_target(target: Path | None) -> None:
-    """Raise ``InvalidChoiceError`` for a suffix that no comparison can be written to.
+def check_target(target: Path | None, *more: str) -> None:
+    """Raise ``InvalidChoiceError`` for a file that no picture can be written to.
 
-    Checked before anything is computed.
+    Called before anything is computed: an unknown suffix must not cost a rendering.
+
+    Parameters
+    ----------
+    target : Path or None
+    *more : str
+        Endings besides those of pictures.
 
     Raises
     ------
     InvalidChoiceError
-        If the file is neither a picture nor a page.
+        Naming the endings there are.
     """
     from quizgen.camera.pixels.codecs import WRITERS
 
-    endings = (*WRITERS, ".html")
+    endings = (*WRITERS, *more)
     if target is not None and target.suffix.lower() not in endings:
         raise InvalidChoiceError(f"cannot write {target} (endings: {', '.join(endings)})")
 

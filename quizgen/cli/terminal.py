@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
+import shlex
 import shutil
 import signal
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from pathlib import Path
 from types import FrameType, TracebackType
 from typing import TYPE_CHECKING, Self
 
@@ -18,8 +20,7 @@ from quizgen.core.untrusted import escape_control_characters
 
 if TYPE_CHECKING:
     from rich.progress import Progress as RichProgress
-import shlex
-from pathlib import Path
+
 
 NARROWEST = 20
 """Columns that text is laid out for at least."""

@@ -1,7 +1,7 @@
 """Tables as offices keep them: CSV in UTF-8, UTF-16 or Windows-1252, and the first sheet of XLSX.
 
-Of a workbook only what stands in its cells is read: no formula, no style, no other sheet. A date is
-the number that it is stored as.
+Of a workbook only what stands in its cells is read: no formula, no other sheet. What a spreadsheet
+has made a date of, and a formula whose result is not in the file, are errors like its own.
 """
 
 from __future__ import annotations
@@ -33,9 +33,17 @@ OLD_ENCODING = "cp1252"
 MOST_COLUMNS = 16_384
 """Of a worksheet."""
 _ARCHIVE = b"PK\x03\x04"
+_OLD_WORKBOOK = b"\xd0\xcf\x11\xe0"
 _CELL = re.compile(r"([A-Z]{1,3})(\d+)")
 _POINTED = re.compile(r"-?\d*\.?\d+(?:[eE][+-]?\d+)?")
 """A number that may be stored with more digits than it was typed with."""
+DATE, FORMULA = "#DATE!", "#FORMULA!"
+"""What a cell says that was made a date, as that is stored as a number, or was not computed."""
+_ERROR = re.compile(r"#(DATE!|FORMULA!|REF!|NAME\?|VALUE!|N/A|NUM!|DIV/0!|NULL!|SPILL!|CALC!)")
+_DATE_FORMATS = frozenset((*range(14, 23), *range(27, 37), *range(45, 48), *range(50, 59)))
+"""Numbers of the formats for dates and times that no workbook spells out."""
+_NO_DATE = re.compile(r'"[^"]*"|\[[^]]*]|\\.|_.|\*.')
+"""What of a format is shown as it stands, or is a colour or currency."""
 _TYPE_DECLARATION = b"<!DOCTYPE"
 
 
@@ -55,11 +63,18 @@ def iter_spreadsheet_rows(path: Path, error: ErrorType) -> Iterator[tuple[int, l
         Of class ``error``, naming the file and if possible the line.
     """
     data = read_bytes(path, error, LARGEST_PICTURE)
+    if data.startswith(_OLD_WORKBOOK):
+        raise error(f"{path}: is an old workbook (.xls), or has a password; save it as XLSX or CSV")
     if data.startswith(_ARCHIVE):
         yield from _iter_workbook_rows(data, path, error)
     else:
         text = decode_spreadsheet(data, path, error)
         yield from iter_csv_rows(io.StringIO(text, newline=""), path, error)
+
+
+def is_cell_error(text: str) -> bool:
+    """Return whether a cell holds no longer what was typed into it: ``#NAME?``, or a date."""
+    return _ERROR.fullmatch(text.strip()) is not None
 
 
 def is_old_encoding(data: bytes) -> bool:
@@ -96,10 +111,11 @@ def _iter_workbook_rows(
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as book:
             shared = _read_shared_texts(book, path, error)
+            dated = _find_date_styles(book, path, error)
             sheet = _parse_member(book, _find_first_sheet(book, path, error), path, error)
             count = 0
             for row in (node for node in sheet.iter() if node.tag.endswith("}row")):
-                line, cells = _parse_row(row, shared)
+                line, cells = _parse_row(row, shared, dated)
                 count += 1 + len(cells)
                 if count > MOST_VALUES:
                     raise error(f"{path}: more than {MOST_VALUES} values")
@@ -148,13 +164,33 @@ def _join_text(node: Element) -> str:
     return "".join(t.text or "" for t in node.iter() if t.tag.endswith("}t") and id(t) not in aids)
 
 
-def _parse_row(row: Element, shared: list[str]) -> tuple[int, list[str]]:
+def _find_date_styles(book: zipfile.ZipFile, path: Path, error: ErrorType) -> set[str]:
+    """Return the numbers of the styles in which cells are shown as dates or times."""
+    name = "xl/styles.xml"
+    if name not in book.namelist():
+        return set()
+    styles = _parse_member(book, name, path, error)
+    own = {node.get("numFmtId", ""): node.get("formatCode", "") for node in styles.iter()
+           if node.tag.endswith("}numFmt")}  # fmt: skip
+    listed = next((node for node in styles if node.tag.endswith("}cellXfs")), ())
+    formats = [node.get("numFmtId", "0") for node in listed]
+    return {str(place) for place, one in enumerate(formats) if _is_date_format(one, own)}
+
+
+def _is_date_format(number: str, own: dict[str, str]) -> bool:
+    """Return whether a format shows numbers as dates or times; ``own`` are the workbook's."""
+    if number in own:
+        return re.search("[dmyhs]", _NO_DATE.sub("", own[number]), re.IGNORECASE) is not None
+    return number.isdecimal() and int(number) in _DATE_FORMATS
+
+
+def _parse_row(row: Element, shared: list[str], dated: set[str]) -> tuple[int, list[str]]:
     """Return the number of a row and its cells, blank ones in between included."""
     cells: dict[int, str] = {}
     for place, cell in enumerate(row):
         found = _CELL.fullmatch(cell.get("r", ""))
         column = _parse_column(found[1]) if found else place
-        cells[column] = _parse_cell(cell, shared)
+        cells[column] = _parse_cell(cell, shared, dated)
     last = max(cells, default=-1)
     if last >= MOST_COLUMNS:
         raise ValueError(f"column {last + 1}")
@@ -169,17 +205,27 @@ def _parse_column(letters: str) -> int:
     return number - 1
 
 
-def _parse_cell(cell: Element, shared: list[str]) -> str:
+def _parse_cell(cell: Element, shared: list[str], dated: set[str]) -> str:
     """Return what a cell shows, a whole number without a point.
 
-    ``shared`` are the texts of the workbook.
+    ``shared`` are the texts of the workbook, ``dated`` its styles for dates.
     """
     kind = cell.get("t", "n")
     if kind == "inlineStr":
         return _join_text(cell)
-    text = next((node.text or "" for node in cell if node.tag.endswith("}v")), "")
+    parts = {node.tag.rpartition("}")[2]: node.text or "" for node in cell}
+    text = parts.get("v", "")
+    if "f" in parts and not text and (kind, "v" in parts) != ("str", True):
+        return FORMULA
+    if kind == "n" and text and cell.get("s", "0") in dated:
+        return DATE
     if kind == "s" and text:
         return shared[int(text)]
+    return _format_cell(text, kind)
+
+
+def _format_cell(text: str, kind: str) -> str:
+    """Return what a cell that is no shared text shows."""
     if kind == "b":
         return "true" if text == "1" else "false"
     if kind == "n" and not text.isdecimal() and _POINTED.fullmatch(text):

@@ -23,12 +23,14 @@ from quizgen.grading.reading.answer_reader import (
     is_cut_short,
     is_denied,
     is_range_of_shares,
-    join_fraction,
     list_plainer_texts,
     list_readings,
+    name_by_index,
     prove_groups,
+    write_in_signs,
 )
 from quizgen.grading.reading.factor_words import drop_bound
+from quizgen.grading.reading.labels import AskedNames
 from quizgen.grading.reading.normalise import LONGEST_PROSE
 from quizgen.grading.spec import AnySpec, ScalarSpec, WordSpec
 from quizgen.grading.verdict import PARTIAL, WRONG, Verdict, ambiguous, attach_message, unreadable
@@ -94,7 +96,7 @@ def _judge_as_written(spec: AnySpec, typed: str, options: GradingOptions) -> Ver
     if len(typed) > LONGEST_PROSE:  # no answer is so long: nothing is searched for one in it
         return _judge_text(spec, typed[:FAR_TOO_LONG], options)
     form = spec.written_as
-    verdict = _judge_text(spec, _prepare(typed, form), options)
+    verdict = _judge_text(spec, _prepare(typed, form, spec.value_names()), options)
     doubtful = has_second_meaning if verdict.verdict == WRONG else is_range_of_shares
     if verdict.is_graded and form in MEASURED and doubtful(typed):
         return ambiguous("bullet-or-range", verdict.read_as)
@@ -138,12 +140,12 @@ def _ask_what_is_meant(form: AnswerForm, typed: str, verdict: Verdict) -> Verdic
     )
 
 
-def _prepare(typed: str, form: AnswerForm) -> str:
+def _prepare(typed: str, form: AnswerForm, names: AskedNames) -> str:
     """Return the text that is judged first: without what would make a right answer a wrong one."""
     if form == "values":
-        return prove_groups(drop_counting(drop_transposed(typed)))
+        return prove_groups(drop_counting(name_by_index(drop_transposed(typed), names)))
     if form == "formula":
-        return join_fraction(typed)
+        return write_in_signs(typed)
     if form == "word":
         return drop_bullets(drop_markup(typed))
     return drop_markup(typed) if form == "option" else typed

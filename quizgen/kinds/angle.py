@@ -108,6 +108,9 @@ _INVERSE = re.compile(
     r"|(?:tan|sin|cos) ?(?:\^ ?\(?-1\)?|\^\{-1\}|⁻¹)"
 )
 _MINUTES = re.compile(r"(\d+) ?° ?(\d{1,2}) ?['′’](?: ?(\d{1,2}(?:\.\d+)?) ?(?:''|[″\"]))?")
+_ARC_MINUTES = re.compile(
+    r"(\d+(?:[.,]\d+)?) ?(?:arc ?min(?:utes?)?|Bogenminuten?|আর্ক মিনিট)(?!\w)", re.IGNORECASE
+)
 _CIRCLE = re.compile(r"(?<=\d) ?\^ ?\{? ?(?:o|\\circ) ?\}?")
 
 
@@ -117,6 +120,7 @@ def _list_spellings(typed: str) -> Iterator[str]:
     Inverse functions give degrees on the calculators of most people: ``arctan(0.16) = 9.09°``.
     """
     typed = _CIRCLE.sub("°", typed)
+    typed = _ARC_MINUTES.sub(r"(\1/60)°", typed) if len(typed) <= LONGEST else typed
     minutes = _MINUTES.fullmatch(typed.strip())
     if minutes:
         typed = f"({minutes[1]} + {minutes[2]}/60 + {minutes[3] or 0}/3600)°"

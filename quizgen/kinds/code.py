@@ -95,7 +95,8 @@ _ASSIGNED = re.compile(
 )
 """What an output is called, or an arrow to it."""
 _TAIL = re.compile(
-    r"\s*(?:\((?=[^\W\d])[^()\d]*\)|\(=[^()]*\)|print হবে|হবে|#.*|(?:,\s*)?\b(?:because|since|weil|কারণ)\b.*|\s[-–—]\s.*)$",
+    r"\s*(?:\((?=[^\W\d])[^()\d]*\)|\(=[^()]*\)|print হবে|হবে|#.*"
+    r"|(?:,\s*)?\b(?:because|since|weil|কারণ)\b.*|\s[-–—]\s.*)$",
     re.DOTALL,
 )
 """A remark behind an output."""

@@ -17,11 +17,11 @@ from quizgen.core.errors import FormulaError
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import (
     confusable_terms,
+    find_translation,
     fold_word,
     is_another_word,
     nearest_terms,
 )
-from quizgen.grading.judging.wordings import find_translation
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, is_denied, says_otherwise
 from quizgen.grading.reading.normalise import ANSWER, PICTURES, apply_rewrite, refuse_invisible
@@ -173,7 +173,7 @@ _MEASURE = re.compile(r"\d+ ?[a-zµ]{2,3}")
 _PICTURE = "\N{FRAME WITH PICTURE}"
 _PICTURE_IS = re.compile(rf"{_PICTURE} *\d+ *(?:[:=→⇒]|-+>)")
 """Something said of a picture, where its number is what is asked."""
-_LABEL = re.compile(r"\s*[^\W\d_]{1,12}\s*[:=]\s*\S")
+_LABEL = re.compile(r"\s*[^\W\d_]{1,12}\s*(?:[:=→⇒]|->)\s*\S")
 
 
 def _read_words(typed: str, gaps: list[list[str]]) -> list[str]:
@@ -297,7 +297,7 @@ def _judge_gap(spec: GapSpec, gap: list[str], word: str) -> Verdict:
     if folded in right or _fold_spelt_out(word) in right or _is_inflection(word, right):
         return correct(safe_echo(" ".join(word.split())))
     others = [o for g in spec.gaps() for o in g if fold_word(o) not in right] + spec.among
-    if _is_in_company(word, gap, others):
+    if _is_all_right(word, right) or _is_in_company(word, gap, others):
         return correct(safe_echo(" ".join(word.split())))
     if folded in map(fold_word, others):
         return wrong(safe_echo(word), "other-term")
@@ -375,10 +375,12 @@ def _drop_remark(word: str, terms: list[str]) -> str:
     if fold_word(plain) in map(fold_word, terms):
         return plain
     inside = _translate_word(remark.strip(" )"), terms)
-    foreign = not _holds_a_term(outside, terms) and fold_word(inside) in map(fold_word, terms)
-    return inside if foreign else word
+    translated = _BANGLA.search(outside) and not _BANGLA.search(remark)
+    foreign = translated and not _holds_a_term(outside, terms)
+    return inside if foreign and fold_word(inside) in map(fold_word, terms) else word
 
 
+_BANGLA = re.compile("[\u0980-\u09ff]")
 _OFFERED = re.compile(
     r"^ ?(?:not|or|nicht|oder|maybe|perhaps|\?|না)|(?:^|[ ,])(?:or|oder|বা|অথবা) ", re.IGNORECASE
 )
@@ -390,6 +392,16 @@ def _drop_idle_words(word: str, terms: list[str]) -> str:
     kept = [one for one in words if one.casefold().strip(".,") not in _load_idle_words()]
     term = " ".join(kept)
     return term if len(kept) < len(words) and fold_word(term) in map(fold_word, terms) else word
+
+
+def _is_all_right(word: str, right: set[str]) -> bool:
+    """Return whether several right terms are joined, ``streaks / smear``."""
+    pieces = [piece for piece in _ALONGSIDE.split(word) if piece.strip()]
+    said = ({fold_word(piece), *map(fold_word, find_translation(piece))} for piece in pieces)
+    return len(pieces) > 1 and all(one & right for one in said)
+
+
+_ALONGSIDE = re.compile(r" ?/ ?|, | (?:and|und|ও|এবং|&) ")
 
 
 def _is_in_company(word: str, gap: Sequence[str], others: Sequence[str]) -> bool:

@@ -52,8 +52,10 @@ _GROUPS = (
     r"[,;\n]| (?:and|und|&|ও|এবং) ",
 )
 """What may stand between pairs, or between all that belong to one right side."""
+_RUN_OF_LABELS = re.compile(r"(?<![^\W_])([A-Z])(?:, ?| (?:and|und|&|ও|এবং) )(?=[A-Z](?![^\W_]))")
 _REST = re.compile(
-    r"^(?:and |und )?(?:the |der |die )?(?:rest|others?|remaining|übrigen?|anderen?|বাকি(?:গুলো|টা|রা)?|অন্যগুলো)"
+    r"^(?:and |und )?(?:the |der |die )?(?:rest|others?|remaining|übrigen?|anderen?"
+    r"|বাকি(?:গুলো|টা|রা)?|অন্যগুলো)"
     r"(?: (?:is|are|ist|sind))?(?= |:|=)[ :=]*|[ :=]*(?:rest|others|বাকিগুলো)$",
     re.IGNORECASE,
 )
@@ -234,6 +236,7 @@ def _is_whole(spec: MatchSpec, worded: list[str]) -> bool:
 
 def _read_groups(spec: MatchSpec, text: str) -> list[tuple[str, str]]:
     """Return the pairs of ``CCD: A, B; CMOS: C`` or ``HSV 2, YUV 1``; none if one is unclear."""
+    text = _RUN_OF_LABELS.sub(r"\1 ", text)
     for between in _GROUPS:
         groups = [group.strip() for group in re.split(between, text) if group.strip()]
         rest = _REST.search(groups[-1]) if len(groups) > 1 else None
@@ -267,12 +270,22 @@ def _read_group(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
         left = _find_side(spec, words, list(spec.pairs))
         return [(left, digits[0])] if left else []
     sides = _SIDES.split(group)
-    if len(sides) != len(("left", "right")):
-        return []
-    left = _find_side(spec, sides[0], list(spec.pairs))
-    right = sides[1] if sides[1] in _list_targets(spec) else ""
-    right = right or _find_side(spec, sides[1], _list_targets(spec))
-    return [(left, right)] if left and right else []
+    if len(sides) == len(("left", "right")):
+        pair = _find_pair(spec, *sides)
+        return [pair] if all(pair) else []
+    spoken = group.split()
+    cuts = range(1, len(spoken)) if len(sides) == 1 and len(spoken) <= MOST_WORDS else ()
+    found = {_find_pair(spec, " ".join(spoken[:cut]), " ".join(spoken[cut:])) for cut in cuts}
+    found = {pair for pair in found if all(pair)}
+    return [*found] if len(found) == 1 else []
+
+
+def _find_pair(spec: MatchSpec, first: str, second: str) -> tuple[str, str]:
+    """Return the labels of a left side in words and a right one; empty where none is meant."""
+    targets = _list_targets(spec)
+    numbered = _NUMBERED_SIDE.fullmatch(second.strip())
+    right = numbered[1] if numbered and numbered[1] in targets else ""
+    return _find_side(spec, first, list(spec.pairs)), right or _find_side(spec, second, targets)
 
 
 def _is_run_of_labels(spec: MatchSpec, token: str) -> bool:
@@ -292,6 +305,11 @@ def _find_side(spec: MatchSpec, words: str, labels: Sequence[str]) -> str:
     return labels[place - 1] if place else ""
 
 
+MOST_WORDS = 12
+"""Words of a pair that nothing parts."""
+_NUMBERED_SIDE = re.compile(
+    r"(?:(?:setting|picture|photo|number|option|graph|curve|কার্ভ|ছবি|Bild) )?(\d)"
+)
 BANGLA_DIGITS = str.maketrans("০১২৩৪৫৬৭৮৯", "0123456789")
 
 

@@ -34,14 +34,18 @@ from quizgen.maths.notation import FormulaReadError
 
 MOST_STEPS = 40
 _LETTERED = r"[A-Za-z](?:(?:,| and| or| und)? [A-Za-z])*"
+_WRONG = r"\b(?:wrong|false|falsch|keine?n?|nicht|not|no|never|nie|না|নেই|নয়|ভুল)(?!\w)"
+"""A word that says why a step is none."""
 _LEFT_OUT = re.compile(
-    r"(?P<kept>.+)(?:[,;:.] ?| ?\("
+    rf"(?P<kept>[^()]+) \((?P<aside>[A-Z])(?= [^()]*{_WRONG}) [^()]{{3,}}\)"
+    r"|(?P<behind>.+)(?:[,;:.] ?| ?\("
     r"| (?=without |leav|ohne |বাদ |not |but |and not |no |nicht |except ))"
     r"(?:(?:without|leave out|leaving out|leaves out|ohne|বাদ) (?P<out>[^()]+)"
     rf"|(?:(?:and |but |und )?(?:not|no|nicht)|except|außer) (?P<denied>{_LETTERED})"
     rf"|(?P<wrong>{_LETTERED}) (?:(?:is |are |ist |sind |was )?"
     r"(?:wrong|false|out|falsch|left out|not|nicht|missing|impossible|unused|extra|superfluous"
-    r"|nonsense|unnecessary|not needed|unmöglich|überflüssig|übrig|Unsinn|বাদ|ভুল|অসম্ভব|লাগে না|হয় না|নয়)"
+    r"|nonsense|unnecessary|not needed|unmöglich|überflüssig|übrig|Unsinn"
+    r"|বাদ|ভুল|অসম্ভব|লাগে না|হয় না|নয়)"
     r"|(?:does|do)(?: not|n't) (?:belong|fit|happen|exist)|makes no sense|never happens"
     r"|gehör(?:t|en) nicht dazu|passt nicht|entfällt|fällt weg)"
     r"(?:[,:]? (?:because|since|weil|কারণ) [^()]+)?)[).]*",
@@ -68,7 +72,10 @@ _STEP_NUMBER = re.compile(
     re.IGNORECASE,
 )
 _COMPARED = re.compile(r"(?<![-=])[<>](?!>)")
-_STEP_LABEL = re.compile(r"([A-Z]) ?[(:] ?([^()]+)\)?")
+_MARKED = re.compile(r"\(([A-Z])\)")
+"""The label of a step in brackets behind its words."""
+_STEP_LABEL = re.compile(r"([A-Z])(?: ?[(:] ?|(?<!A) (?=[^\W\d]{2}))([^()]+)\)?")
+"""The label of a step before its words; ``A`` may be the article of these."""
 _LINE = re.compile(
     r"(?<![^\s,;(])\(?(\d{1,2})(?: ?[.):]+ ?| ?[=-] ?(?=[^\W\d])| (?=[^\W\d]))"
     r"([^\s,;.:()\d]+|\d{1,2}(?![.):]))(?![^\s,;.])"
@@ -98,7 +105,33 @@ _FILLERS = frozenset(
         "প্রথমে",
         "+",
     }
-    | {"finally", "last", "next", "zuletzt", "শেষে"}
+    | {
+        "finally",
+        "last",
+        "next",
+        "zuletzt",
+        "শেষে",
+        "lastly",
+        "at",
+        "the",
+        "very",
+        "end",
+        "am",
+        "ende",
+    }
+    | {
+        "zum",
+        "schluss",
+        "schließlich",
+        "tarpor",
+        "sheshe",
+        "sobar",
+        "prothome",
+        "age",
+        "ebong",
+        "সবশেষে",
+        "শেষ",
+    }
 )
 
 
@@ -335,22 +368,16 @@ def _read_worded_steps(spec: OrderSpec, typed: str) -> list[str]:
     What is said to be left out is, if nothing of it stands among the rest.
     """
     text = apply_rewrite("digits", typed.strip())
+    labels = [*spec.steps, *spec.distractors]
+    marked = _MARKED.findall(text)
+    pieces = [piece for piece in _BETWEEN_STEPS[2].split(_MARKED.sub("", text)) if piece.strip()]
+    if len(marked) > 1 and len({*marked}) == len(marked) == len(pieces) and {*marked} <= {*labels}:
+        return [] if is_denied(text) else marked
     kept = _LEFT_OUT_FIRST.fullmatch(text) or _LEFT_OUT.fullmatch(text)
     if kept is not None:
-        label = (
-            re.compile(rf"\b[{''.join(spec.steps)}]\b")
-            if all(map(_is_letter, spec.steps))
-            else None
-        )
-        try:
-            chosen = _read_labels(spec, kept["kept"])
-        except FormulaReadError:
-            return []
-        out = next(one for name, one in kept.groupdict().items() if one and name != "kept")
-        return [] if label is None or label.search(out) else chosen
+        return _read_kept_steps(spec, kept)
     if is_denied(text) or _TIED.search(text):
         return []
-    labels = [*spec.steps, *spec.distractors]
     wordings = [[said.get(label, "") for label in labels] for said in (spec.words, *spec.said)]
     for between in _BETWEEN_STEPS:
         pieces = [_STEP_NUMBER.sub("", piece.strip()) for piece in between.split(text)]
@@ -359,6 +386,20 @@ def _read_worded_steps(spec: OrderSpec, typed: str) -> list[str]:
         if len(pieces) > 1 and all(places) and len({*places}) == len(places):
             return [labels[place - 1] for place in places]
     return []
+
+
+def _read_kept_steps(spec: OrderSpec, kept: re.Match[str]) -> list[str]:
+    """Return the steps beside others that are left out; none if one of them is left out, too."""
+    if not all(map(_is_letter, spec.steps)):
+        return []
+    groups = kept.groupdict()
+    try:
+        chosen = _read_labels(spec, groups["kept"] or groups["behind"])
+    except FormulaReadError:
+        return []
+    out = next(one for name, one in groups.items() if one and name not in {"kept", "behind"})
+    label = re.compile(rf"\b[{''.join(spec.steps)}]\b")
+    return [] if out in chosen or label.search(out) else chosen
 
 
 def _is_letter(label: str) -> bool:

@@ -20,7 +20,7 @@ from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.count_nouns import check_count_nouns, count_noun_unit, drop_count_noun
 from quizgen.grading.reading.equalities import read_items
-from quizgen.grading.reading.labels import AskedNames, reorder_by_name
+from quizgen.grading.reading.labels import AskedNames, are_counted_off, reorder_by_name
 from quizgen.grading.reading.lists import read_list
 from quizgen.grading.reading.numbers import ReadNumber
 from quizgen.grading.reading.quantities import split_quantity
@@ -108,7 +108,8 @@ class PointSpec(VectorSpec, kw_only=True, frozen=True):
             If one cannot be read, or there are too many, too few or other names than asked for.
         """
         items, tail = read_list(typed, len(self.values), options.decimal)
-        items = reorder_by_name(items, self.value_names())
+        counted = not self.names and are_counted_off(items)
+        items = reorder_by_name(items, () if counted else self.value_names())
         items = [drop_count_noun(item, self.counts) for item in items]
         unit, asked = _unit(tail), self.unit or count_noun_unit(self.counts)
         first, second, doubt = read_items(items, asked, unit, options.decimal)

@@ -13,6 +13,7 @@ from collections.abc import Callable
 from flint import fmpq
 
 from quizgen.core.errors import MathError
+from quizgen.maths.numbers import to_float
 from quizgen.maths.values import AnyNumber, NumberList
 
 
@@ -110,16 +111,11 @@ def pick_value(values: AnyNumber, place: AnyNumber) -> AnyNumber:
         If there is no such place.
     """
     listed = _require_list(values)
-    if isinstance(place, tuple) or place != (index := int(float(_convert_to_float(place)))):
+    if isinstance(place, tuple) or place != (index := int(float(to_float(place)))):
         raise MathError("a place in a list is a whole number")
     if not 1 <= index <= len(listed):
         raise MathError(f"no place {index} in a list of {len(listed)} values (the first is 1)")
     return listed[index - 1]
-
-
-def _convert_to_float(value: AnyNumber) -> float:
-    """Return a value as the nearest float, from any number system."""
-    return int(value.p) / int(value.q) if isinstance(value, fmpq) else float(value)
 
 
 def _pick_least(values: AnyNumber) -> AnyNumber:

@@ -119,11 +119,6 @@ def tidy_formula(expr: Expr) -> Expr:
     return Call(expr.op, args) if rule is None else rule(args)
 
 
-def _make_number(value: Fraction) -> Num:
-    """Return a number as a leaf of a formula."""
-    return Num(value)
-
-
 def _is_value(expr: Expr, value: int) -> bool:
     """Return whether a formula is this number."""
     return isinstance(expr, Num) and expr.value == value
@@ -169,7 +164,7 @@ def _tidy_sum(args: tuple[Expr, ...]) -> Expr:
     terms = [term for term in terms if not _is_value(term, 0)]
     place = min(place, len(terms))
     if total:
-        terms.insert(place, _make_number(total))
+        terms.insert(place, Num(total))
     if not terms:
         return _ZERO
     return _join_terms(terms)
@@ -192,7 +187,7 @@ def _join_like_terms(terms: tuple[Expr, ...]) -> tuple[Expr, ...]:
         if monomial is None:
             joined.append(term)
         elif monomial[1] in sums:
-            joined.append(_tidy_product((_make_number(sums.pop(monomial[1])), monomial[1])))
+            joined.append(_tidy_product((Num(sums.pop(monomial[1])), monomial[1])))
     return tuple(joined)
 
 
@@ -265,7 +260,7 @@ def _tidy_difference(args: tuple[Expr, ...]) -> Expr:
     """Return a difference without zeros and without a minus sign on the second term."""
     first, second = args
     if isinstance(first, Num) and isinstance(second, Num):
-        return _make_number(first.value - second.value)
+        return Num(first.value - second.value)
     if _is_value(second, 0):
         return first
     if _is_value(first, 0):
@@ -308,7 +303,7 @@ def _tidy_product(args: tuple[Expr, ...]) -> Expr:
     if not number:
         return _ZERO
     if not factors:
-        return _make_number(number)
+        return Num(number)
     if all(map(_is_constant, factors)):
         rest = factors[0] if len(factors) == 1 else Call("mul", tuple(factors))
         return write_multiple(number, rest)
@@ -319,7 +314,7 @@ def _tidy_product(args: tuple[Expr, ...]) -> Expr:
         whole = Call("mul", (write_multiple(abs(number), rest), *others))
         return whole if number > 0 else Call("neg", (whole,))
     if abs(number) != 1:
-        factors.insert(0, _make_number(abs(number)))
+        factors.insert(0, Num(abs(number)))
     product = factors[0] if len(factors) == 1 else Call("mul", tuple(factors))
     return product if number > 0 else Call("neg", (product,))
 
@@ -334,7 +329,7 @@ def _join_roots(number: Fraction, factors: list[Expr]) -> tuple[Fraction, list[E
             rest.append(factor)
     if under == 1 or len(factors) - len(rest) == 1:
         return number, factors
-    root = _tidy_root((_make_number(under),))
+    root = _tidy_root((Num(under),))
     if isinstance(root, Num):
         return number * root.value, rest
     size, one = split_constant(root) or (Fraction(1), root)
@@ -346,14 +341,14 @@ def _tidy_quotient(args: tuple[Expr, ...]) -> Expr:
     top, bottom = args
     if isinstance(bottom, Num) and bottom.value:
         if isinstance(top, Num):
-            return _make_number(top.value / bottom.value)
+            return Num(top.value / bottom.value)
         return _divide_by_number(top, bottom.value)
     if _is_value(top, 0):
         return _ZERO
     if (below := split_constant(bottom)) and below[0] and _is_constant(top):
         size, rest = below
         if isinstance(rest, Call) and rest.op == "sqrt" and isinstance(rest.args[0], Num):
-            return _tidy_product((top, _make_number(1 / size / rest.args[0].value), rest))
+            return _tidy_product((top, Num(1 / size / rest.args[0].value), rest))
     if isinstance(bottom, Call) and bottom.op == "neg":
         return negate_formula(Call("div", (top, bottom.args[0])))
     return Call("div", (top, bottom))
@@ -367,9 +362,9 @@ def _divide_by_number(top: Expr, bottom: Fraction) -> Expr:
     if isinstance(inner, Call) and inner.op == "mul" and isinstance(inner.args[0], Num):
         first, rest = inner.args[0].value, inner.args[1:]
     factor = (-first if minus else first) / bottom
-    over = _tidy_product((_make_number(Fraction(abs(factor.numerator))), *rest))
+    over = _tidy_product((Num(Fraction(abs(factor.numerator))), *rest))
     below = factor.denominator
-    quotient = over if below == 1 else Call("div", (over, _make_number(Fraction(below))))
+    quotient = over if below == 1 else Call("div", (over, Num(Fraction(below))))
     return quotient if factor > 0 else Call("neg", (quotient,))
 
 
@@ -386,7 +381,7 @@ def _tidy_power(args: tuple[Expr, ...]) -> Expr:
             return _ONE
         whole = exponent.value.denominator == 1 and abs(exponent.value) <= LARGEST_EXPONENT
         if whole and isinstance(base, Num) and (base.value or exponent.value > 0):
-            return _make_number(base.value ** int(exponent.value))
+            return Num(base.value ** int(exponent.value))
         if exponent.value == Fraction(1, 2):
             return _tidy_root((base,))
         if exponent.value < 0 and not isinstance(base, Num):
@@ -403,11 +398,11 @@ def _tidy_root(args: tuple[Expr, ...]) -> Expr:
     outside, inside = _take_squares_out(top * bottom)
     factor = Fraction(outside, bottom)
     if inside == 1:
-        return _make_number(factor)
-    root = Call("sqrt", (_make_number(Fraction(inside)),))
-    over = _tidy_product((_make_number(Fraction(factor.numerator)), root))
+        return Num(factor)
+    root = Call("sqrt", (Num(Fraction(inside)),))
+    over = _tidy_product((Num(Fraction(factor.numerator)), root))
     below = factor.denominator
-    return over if below == 1 else Call("div", (over, _make_number(Fraction(below))))
+    return over if below == 1 else Call("div", (over, Num(Fraction(below))))
 
 
 def _take_squares_out(value: int) -> tuple[int, int]:
@@ -429,7 +424,7 @@ def _make_point_rule(op: str, at: int, value: int) -> Callable[[tuple[Expr, ...]
 
     def rule(args: tuple[Expr, ...]) -> Expr:
         """Return the value if the argument is that point, else the call as it was."""
-        return _make_number(Fraction(value)) if _is_value(args[0], at) else Call(op, args)
+        return Num(Fraction(value)) if _is_value(args[0], at) else Call(op, args)
 
     return rule
 

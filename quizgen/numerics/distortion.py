@@ -20,7 +20,7 @@ from quizgen.numerics.domain import (
     Numbers,
 )
 from quizgen.numerics.quintic import QuinticSolver, cubic_discriminant, solve_cubic
-from quizgen.numerics.rational import ONE, exact_arguments, from_dyadic, to_dyadic
+from quizgen.numerics.rational import exact_arguments
 from quizgen.numerics.ufunc import StableUfunc, smallest_nonzero
 
 _UNSURE = 2.0**-40
@@ -56,19 +56,11 @@ _FAR = 2.0**100
 _ALLOWED = 3.0
 
 
-def _distort_exact(x: fmpq, y: fmpq, k1: fmpq, k2: fmpq) -> tuple[float, float]:
-    """Return x_d and y_d of one point, each rounded once from the exact fraction.
-
-    Whole numbers over powers of two need no common divisors, unlike fractions.
-    """
-    (X, a), (Y, b), (K1, c), (K2, d) = map(to_dyadic, (x, y, k1, k2))
-    s = max(a, b)
-    R = (X << s - a) ** 2 + (Y << s - b) ** 2
-    t = max(c, d + 2 * s)
-    bend = (K1 << t - c) + (K2 * R << t - d - 2 * s)
-    below = max(2 * s + t, 0)
-    scale = (ONE << below) + (R * bend << below - 2 * s - t)
-    return from_dyadic(X * scale, a + below), from_dyadic(Y * scale, b + below)
+def _distort_exact(x: fmpq, y: fmpq, k1: fmpq, k2: fmpq) -> tuple[fmpq, fmpq]:
+    """Return x_d and y_d of one point as fractions."""
+    square = x * x + y * y
+    scale = 1 + square * (k1 + k2 * square)
+    return x * scale, y * scale
 
 
 def _compute_binary_exponent(value: Array) -> Counts:
@@ -157,7 +149,7 @@ def _compute_fold_radius(k1: Array, k2: Array) -> Array:
 
 
 _DISTORT = StableUfunc(
-    _distort_in_doubles, (REAL,) * 4, exact=_distort_exact, reach=_FAR, tiny=True, outputs=2
+    _distort_in_doubles, (REAL,) * 4, exact=_distort_exact, reach=_FAR, outputs=2
 )
 _FOLD = StableUfunc(_compute_fold_radius, (REAL, REAL))
 _INVERSE = StableUfunc(

@@ -36,14 +36,11 @@ Counts = npt.NDArray[np.int64]
 ArrayLike = Array | tuple[Array, ...]
 """A block of the result, or one block of every result."""
 
-Limits = tuple[float, float]
-"""Least and largest value of a block (NaN when there is one)."""
-
 ArrayFormula = Callable[..., ArrayLike]
 """A formula on blocks; a block of one element stands for all elements."""
 
 Exact = Callable[..., Any]
-"""The same quantity for fractions; returns fractions, or floats that stand for themselves."""
+"""The same quantity for fractions, as fractions."""
 
 
 class DomainError(ValueError):
@@ -68,12 +65,11 @@ class Interval(msgspec.Struct, frozen=True):
     reason: str = "not-finite"
     closed: bool = False
 
-    def contains(self, low: float | Array, high: float | Array) -> Any:
-        """Return whether values from ``low`` to ``high`` all lie inside, by element; no for NaN."""
-        finite = (low > -math.inf) & (high < math.inf)
+    def contains(self, value: float | Array) -> Any:
+        """Return whether values lie inside, by element; no for NaN."""
         if self.closed:
-            return finite & (low >= self.low) & (high <= self.high)
-        return finite & (low > self.low) & (high < self.high)
+            return np.isfinite(value) & (value >= self.low) & (value <= self.high)
+        return np.isfinite(value) & (value > self.low) & (value < self.high)
 
     def explain(self, value: float) -> str:
         """Return the reason why a value outside has no answer."""

@@ -70,7 +70,12 @@ _CHANNELS = ((0, 1, 2), (1, 0, 2), (2, 0, 1), (2, 1, 0), (1, 2, 0), (0, 2, 1))
 """Which of the highest, the changing and the lowest value is red, green and blue, by sector."""
 
 _TO_RGB = StableUfunc(
-    _hsv_to_rgb_block, (REAL,) * 3, exact=_hsv_to_rgb_exact, reach=2.0**400, outputs=3
+    _hsv_to_rgb_block,
+    (REAL,) * 3,
+    exact=_hsv_to_rgb_exact,
+    least=2.0**-400,
+    reach=2.0**400,
+    outputs=3,
 )
 
 

@@ -20,16 +20,12 @@ from quizgen.numerics.domain import (
     Flags,
     FloatOrArray,
     Interval,
-    Limits,
     Numbers,
 )
 from quizgen.numerics.rational import exact_arguments, nearest_double
 
 BLOCK = 32768
 """Elements per block: temporaries stay near the processor, and calls are few."""
-
-REACH = 2.0**120
-"""Magnitudes from its inverse to it are moderate, unless a kernel says otherwise."""
 
 
 class StableUfunc(msgspec.Struct, frozen=True):
@@ -45,10 +41,8 @@ class StableUfunc(msgspec.Struct, frozen=True):
         Relations without an answer.
     exact : callable, optional
         The same quantity for fractions, one element at a time (microseconds).
-    reach : float
-        ``formula`` is trusted for magnitudes up to it, and from its inverse.
-    tiny : bool
-        Whether it is trusted for all smaller ones, too.
+    least, reach : float
+        ``formula`` is trusted for magnitudes between them.
     outputs : int
         Number of result arrays.
     """
@@ -57,8 +51,8 @@ class StableUfunc(msgspec.Struct, frozen=True):
     spans: Sequence[Interval]
     rules: Sequence[Constraint] = ()
     exact: Exact | None = None
-    reach: float = REACH
-    tiny: bool = False
+    least: float = 0.0
+    reach: float = math.inf
     outputs: int = 1
 
     def __call__(self, *args: Numbers) -> FloatOrArray:
@@ -78,50 +72,35 @@ class StableUfunc(msgspec.Struct, frozen=True):
         reason = self._find_domain_error(args)
         if reason is not None:
             raise DomainError(reason)
-        return tuple(
-            value[0].item()
-            for value in self._evaluate_values(args, list(map(_find_value_limits, args)))
-        )
+        return tuple(value[0].item() for value in self._evaluate_values(args))
 
     def _find_domain_error(self, args: list[Array]) -> str | None:
         """Return the reason why one element has no answer, or None."""
         for span, arg in zip(self.spans, args, strict=True):
-            if not span.contains(arg[0], arg[0]):
+            if not span.contains(arg[0]):
                 return span.explain(float(arg[0]))
         return next((rule.reason for rule in self.rules if np.any(rule.broken(*args))), None)
 
     def _evaluate_blocks(self, args: list[Array], shape: tuple[int, ...]) -> tuple[Array, ...]:
         """Return the results for arrays of ``shape``, block by block."""
-        columns = [np.empty(math.prod(shape)) for _ in range(self.outputs)]
+        columns = [np.full(math.prod(shape), np.nan) for _ in range(self.outputs)]
         masks: list[tuple[int, Flags]] = []
-        fixed = [_find_value_limits(arg) if arg.size == 1 else None for arg in args]
         for start, block in _iter_blocks(args, columns[0].size):
             parts = [column[start : start + BLOCK] for column in columns]
-            limits = [
-                known or _find_value_limits(arg) for known, arg in zip(fixed, block, strict=True)
-            ]
-            bad = self._flag_undefined(block, limits)
-            if bad is None:
-                _assign_where(parts, self._evaluate_values(block, limits), slice(None))
-                continue
-            masks.append((start, bad))
-            _assign_where(parts, [np.full(1, np.nan)] * self.outputs, bad)
+            bad = self._flag_undefined(block)
+            if bad.any():
+                masks.append((start, bad))
             if not bad.all():
                 some = [arg[~bad] if arg.size > 1 else arg for arg in block]
-                _assign_where(
-                    parts, self._evaluate_values(some, list(map(_find_value_limits, some))), ~bad
-                )
+                for part, value in zip(parts, self._evaluate_values(some), strict=True):
+                    part[~bad] = value
         return tuple(_with_mask(column, masks).reshape(shape) for column in columns)
 
-    def _flag_undefined(self, args: list[Array], limits: list[Limits]) -> Flags | None:
-        """Return flags of the elements without an answer, or None if all have one."""
-        if all(
-            span.contains(*limit) for span, limit in zip(self.spans, limits, strict=True)
-        ) and not any(np.any(rule.broken(*args)) for rule in self.rules):
-            return None
+    def _flag_undefined(self, args: list[Array]) -> Flags:
+        """Return flags of the elements without an answer."""
         bad = np.zeros(max(arg.size for arg in args), dtype=bool)
         for span, arg in zip(self.spans, args, strict=True):
-            bad |= ~span.contains(arg, arg)
+            bad |= ~span.contains(arg)
         good = ~bad
         if good.any():
             some = [arg[good] if arg.size > 1 else arg for arg in args]
@@ -129,51 +108,25 @@ class StableUfunc(msgspec.Struct, frozen=True):
                 bad[good] |= rule.broken(*some)
         return bad
 
-    def _evaluate_values(self, args: list[Array], limits: list[Limits]) -> tuple[Array, ...]:
+    def _evaluate_values(self, args: list[Array]) -> tuple[Array, ...]:
         """Return the results of a block, by fractions where the formula is not to be trusted."""
         values = self.formula(*args)
         columns = values if isinstance(values, tuple) else (values,)
         if self.exact is None:
             return columns
-        flags = self._flag_out_of_reach(args, limits)
-        for column in columns:
-            if np.isnan(column.max()):
-                lost = np.isnan(column)
-                flags = lost if flags is None else flags | lost
-        return columns if flags is None else _replace_flagged(columns, flags, self.exact, args)
-
-    def _flag_out_of_reach(self, args: list[Array], limits: list[Limits]) -> Flags | None:
-        """Return flags of the elements with an argument beyond ``reach``, or None.
-
-        Zero is within it.
-        """
-        least = 0.0 if self.tiny else 1 / self.reach
-        flags: Flags | None = None
-        for arg, (low, high) in zip(args, limits, strict=True):
-            if high <= self.reach and (low >= least or (self.tiny and low >= -self.reach)):
-                continue
+        flags = np.zeros(max(arg.size for arg in args), dtype=bool)
+        for arg in args:  # zero is within reach
             size = np.abs(arg)
-            odd = (size > self.reach) | ((size < least) & (size > 0))
-            if odd.any():
-                flags = odd if flags is None else flags | odd
-        return flags
+            flags |= (size > self.reach) | ((size < self.least) & (size > 0))
+        for column in columns:
+            flags |= np.isnan(column)
+        return _replace_flagged(columns, flags, self.exact, args) if flags.any() else columns
 
 
 def smallest_nonzero(sizes: Array) -> float:
     """Return the smallest of the values > 0, infinity without any; none may be negative."""
     least = float(sizes.min())
     return least or float(np.min(sizes, where=sizes > 0, initial=math.inf))
-
-
-def _find_value_limits(arg: Array) -> Limits:
-    """Return the least and the largest value of a block."""
-    return float(arg.min()), float(arg.max())
-
-
-def _assign_where(parts: Sequence[Array], values: Sequence[Array], where: Flags | slice) -> None:
-    """Write each result into its part of the output, at the flagged elements or a slice."""
-    for part, value in zip(parts, values, strict=True):
-        part[where] = value
 
 
 def _replace_flagged(
@@ -193,19 +146,15 @@ def _replace_flagged(
 def broadcast_flat(*args: Numbers) -> tuple[tuple[int, ...], list[Array]]:
     """Return the common shape of the arguments, and each as a flat array of doubles.
 
-    One that is the same number throughout, like the one camera of a picture, becomes an array of
-    one.
+    A single number, like the one camera of a picture, stays an array of one.
     """
     arrays = list(map(_to_doubles, args))
     shape = np.broadcast_shapes(*[array.shape for array in arrays])
-    single = [_is_constant(array) for array in arrays]
-    if all(single) and math.prod(shape) > 1:
-        return shape, [np.full(math.prod(shape), array.flat[0]) for array in arrays]
     return shape, [
-        array.reshape(-1)[:1]
-        if one
+        array.reshape(-1)
+        if array.size == 1
         else np.ascontiguousarray(np.broadcast_to(array, shape)).reshape(-1)
-        for array, one in zip(arrays, single, strict=True)
+        for array in arrays
     ]
 
 
@@ -232,14 +181,6 @@ def _round_integer(value: int) -> float:
         return float(value)
     except OverflowError:
         return math.inf
-
-
-def _is_constant(array: Array) -> bool:
-    """Return whether an array holds one number throughout; an empty one does not."""
-    if array.size < 2:
-        return array.size == 1
-    first = array.flat[0]
-    return bool(array.flat[-1] == first) and bool((array == first).all())
 
 
 def _iter_blocks(args: list[Array], size: int) -> Iterator[tuple[int, list[Array]]]:

@@ -343,8 +343,8 @@ class _ScaledDemand(NamedTuple):
 
     def holds_always(self) -> bool:
         """Return whether it holds whatever stands at the places."""
-        low = sum(min(place.values(), default=0) for place in self.amounts)
-        high = sum(max(place.values(), default=0) for place in self.amounts)
+        low = sum(min(place.values()) for place in self.amounts)
+        high = sum(max(place.values()) for place in self.amounts)
         return self.least <= low and high <= self.most
 
 

@@ -289,8 +289,18 @@ def _typeset_values(one: PaperPart) -> str:
     columns = min(len(boxes), MOST_BOXES if named else MOST_BOXES + 1) if _is_row(field) else 1
     if not named and len(boxes) > 1:
         width = 32 if field.control.form == "gaps" else 18
-    number = ", number: true" if field.is_number else ""
-    return f"values({columns}, {width}mm, [{_join_hints(one)}]{number}, {', '.join(rows)})"
+    cells = f", cells: {_measure_cells(one, columns, width)}mm" if field.is_number else ""
+    return f"values({columns}, {width}mm, [{_join_hints(one)}]{cells}, {', '.join(rows)})"
+
+
+def _measure_cells(one: PaperPart, columns: int, width: int) -> int:
+    """Return the millimetres of a box with a cell a sign: ``-0.745`` has six, ``0.000679`` eight.
+
+    Where boxes stand in a row there is room for fewer.
+    """
+    room = 32 if columns == 1 else 28 if columns <= MOST_BOXES and not one.less else 24
+    named = any(box.name for box in one.first.field.boxes)
+    return width if named and columns > 1 else max(width, room)
 
 
 MOST_BOXES = 3

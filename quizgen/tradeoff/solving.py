@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from fractions import Fraction
 
 from flint import arb, fmpq
 
@@ -16,6 +15,7 @@ from quizgen.maths.number_systems import NumberSystem, exact_system, float64_sys
 from quizgen.maths.numbers import to_float, to_rational
 from quizgen.maths.precision import working_precision
 from quizgen.maths.values import AnyNumber, Value, Values
+from quizgen.numerics.rational import exact_fraction
 
 FIGURES = 12
 """Significant figures that a careful engine of doubles keeps."""
@@ -61,11 +61,6 @@ def _return_unchanged(value: AnyNumber) -> Value:
     return kept
 
 
-def _to_exact_fraction(value: float) -> fmpq:
-    """Return the fraction that a float is exactly."""
-    return fmpq(*Fraction(value).as_integer_ratio())
-
-
 def _round_to_figures(value: float) -> fmpq:
     """Return a float rounded to ``FIGURES`` significant figures.
 
@@ -77,7 +72,7 @@ def _round_to_figures(value: float) -> fmpq:
 
 
 ARITHMETICS: Mapping[str, Arithmetic] = {
-    "float64": Arithmetic(float64_system, to_float, _to_exact_fraction),
+    "float64": Arithmetic(float64_system, to_float, exact_fraction),
     "rounded": Arithmetic(float64_system, to_float, _round_to_figures),
     "balls": Arithmetic(exact_system, arb, _return_unchanged),
     "exact": Arithmetic(exact_system, _return_unchanged, _return_unchanged),

@@ -11,8 +11,9 @@ from flint import arb, fmpq
 
 from quizgen.core.errors import MathError
 from quizgen.maths.number_systems import compile_expr, exact_system
-from quizgen.maths.numbers import to_rational
+from quizgen.maths.numbers import to_float, to_rational
 from quizgen.maths.precision import working_precision
+from quizgen.numerics.rational import exact_fraction
 from quizgen.tradeoff.formulas import Columns, Formula
 from quizgen.tradeoff.lines import Column
 
@@ -40,7 +41,7 @@ def truths(formula: Formula, columns: Columns) -> Column:
     compute = _choose_exact_function(formula)
     rows = zip(*(column.tolist() for column in columns), strict=True)
     names = formula.names.split()
-    read = _to_printed_decimal if formula.decimal else _to_exact_fraction
+    read = _to_printed_decimal if formula.decimal else exact_fraction
     return np.array(
         [
             _round_to_nearest_double(compute, dict(zip(names, map(read, row), strict=True)))
@@ -53,11 +54,6 @@ def _choose_exact_function(formula: Formula) -> Callable[[Inputs], Any]:
     """Return a function that computes the formula in balls (arb) or fractions."""
     special = {"inverse-distortion": _evaluate_inverse_radius, "poisson": _evaluate_poisson}
     return special.get(formula.name) or compile_expr(formula.tree, exact_system())
-
-
-def _to_exact_fraction(value: float) -> fmpq:
-    """Return the fraction that a float is exactly."""
-    return fmpq(*value.as_integer_ratio())
 
 
 def _to_printed_decimal(value: float) -> fmpq:
@@ -75,7 +71,7 @@ def _round_to_nearest_double(compute: Callable[[Inputs], Any], given: Inputs) ->
             except MathError:  # a sign that so few bits cannot tell
                 value = None
             if isinstance(value, fmpq):
-                return int(value.p) / int(value.q)
+                return to_float(value)
             if value is not None and value.rel_accuracy_bits() >= _BITS:
                 return float(value.mid())
         precision *= 2

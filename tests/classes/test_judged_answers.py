@@ -7,7 +7,7 @@ import shutil
 import pytest
 from made import made, run
 
-from quizgen.classes import grading_run
+from quizgen.classes import grading_run, manual_grading
 from quizgen.classes.grading_history import GradingHistory
 from quizgen.classes.judged_answers import FILE
 
@@ -41,7 +41,11 @@ def parts(folder, student):
     return next(one.parts for one in GradingHistory(folder).current() if one.student == student)
 
 
-def test_what_is_as_it_was_is_judged_once_and_rulings_hold_all_the_same(folder, judged):
+def test_what_is_as_it_was_is_judged_once_and_rulings_hold_all_the_same(
+    folder, judged, monkeypatch
+):
+    assert (folder / "decisions.csv").read_bytes().count(b"\n") > 1
+    monkeypatch.setattr(manual_grading, "_build_review_case", None)
     run("class", "rule", folder, "give", "1b")
     run("class", "mark", folder)
     assert judged == []

@@ -205,6 +205,14 @@ def test_a_code_leads_to_its_student_as_long_as_the_key_is_that_of_the_paper(cop
         folder.find_by_code(code)
 
 
+def test_a_paper_is_composed_again_as_it_was_printed_or_not_at_all(made):
+    folder, plan, _ = made
+    job, code = generation.list_paper_jobs(folder, plan)["11"], keys(folder)["11"]["code"]
+    assert generation.compose_paper_again(job, code).code == code
+    with pytest.raises(ClassError, match="the paper of 11 is not the one that was made"):
+        generation.compose_paper_again(job, keys(folder)["12"]["code"])
+
+
 def test_for_the_printer_every_paper_begins_on_a_right_hand_page(copied):
     folder, _ = copied
     write_print_file(folder, STUDENTS)

@@ -77,6 +77,8 @@ def test_answers_under_odd_names_arrive(folder):
         ("id,1a,\n101,5,6\n", "line 2: something stands in a column without a name"),
         ("id,1a\n101,5,6\n", "line 2: more cells than columns"),
         ("id,1a\n101,\n", "101: nothing is filled in in.csv"),
+        ("id,1a\n101,#NAME?\n", "line 2: 1a is #NAME?: a spreadsheet has made something else of"),
+        ("MatNo,1a\n101,5\n", "no column is called 'id' (or Matrikelnummer, student number, ...)"),
         ("", "is empty"),
         ("id,1a\n101,5\n101,6\n", "line 3: 101 has other answers in line 2, which count"),
     ],
@@ -182,7 +184,8 @@ def test_points_for_working_come_from_a_table(folder, capsys):
     table = folder.parent / "points.csv"
     assert mark(folder, "id,1a\n101,\n102,5\n103,5\n") == 1
     assert run("class", "status", folder, "101", "present") == 0
-    for cells, said in (("9", "line 2: value: 9 points of 1"), ("1.1", "quarters"), ("x", "value")):
+    for cells, said in (("9", "line 2: value: 9 points of 1"), ("1.1", "quarters"), ("x", "value"),
+                        ("1\n101;0.5", "line 3: 101 stands in line 2, too")):  # fmt: skip
         table.write_text(f"id;Q1a\n101;{cells}\n", "utf-8")
         assert run("class", "points", folder, table) == 2
         assert said in capsys.readouterr().err
@@ -204,6 +207,7 @@ def test_points_for_working_come_from_a_table(folder, capsys):
         (("drop", "9z"), "no part '9z'"),
         (("use", "nothing.csv", "--student", "101"), "no file 'nothing.csv'"),
         (("use", "../roster.csv", "--student", "101"), "no file '../roster.csv'"),
+        (("tolerance", "3b", "--value", "rel=0.1"), "no tolerance holds there"),
     ],
 )
 def test_a_ruling_that_cannot_be_is_refused_when_it_is_given(folder, capsys, words, said):

@@ -87,6 +87,8 @@ def test_the_plots_have_the_decimal_sign_of_the_language(lang, sign):
     for figure in (items, analysis_page.plot_effect(effect, lang, "An effect.")):
         labels = " ".join(strip_mathtext(label.text) for label in figure.labels)
         assert set(re.findall(r"\d([.,])\d", labels)) == {sign}
+    missed_by_the_best = analysis_page.plot_items([("1", 0.4, -0.3)], lang, "Items.")
+    assert any(label.text.startswith("${−") for label in missed_by_the_best.labels)
 
 
 def test_a_later_report_adds_people_and_changes_nobodys_answers(tmp_path, capsys):

@@ -272,6 +272,12 @@ def test_a_page_without_a_code_is_assigned_by_hand_and_taken_back(
     assert "the paper of 7 has 1 pages, and no page 2" in capsys.readouterr().err
     assert assign("7", "page 1", "../../../etc/passwd") == 2
     assert "there is no picture" in capsys.readouterr().err
+    kept = folder / "scans" / picture
+    whole = kept.read_bytes()
+    kept.write_bytes(whole[: len(whole) // 2])
+    assert assign("7", "page 1") == 2
+    assert f"{cup}.jpg: is damaged" in capsys.readouterr().err
+    kept.write_bytes(whole)
     assert assign("7", "page 1") == 1, "the other picture is still of nobody"
     assert read_answers(folder)["7", part] == option
     assert assign("", "page", cup) == 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime as dt
 import io
 import zipfile
 
@@ -46,12 +47,34 @@ def test_cells_of_the_first_sheet_are_read_as_they_are_shown(tmp_path, options):
     ]  # fmt: skip
 
 
+def test_what_a_spreadsheet_made_of_a_number_is_no_number(tmp_path):
+    out = io.BytesIO()
+    with xlsxwriter.Workbook(out) as book:
+        sheet = book.add_worksheet()
+        shown = ["d.m.yyyy", "h:mm", "0.00", '0.0 "days"', "[$-407]mmm yy", "[Red]0", "@"]
+        for column, form in enumerate(shown):
+            sheet.write_number(0, column, 46143, book.add_format({"num_format": form}))
+        sheet.write_datetime(1, 0, dt.date(2026, 5, 1), book.add_format({"num_format": 14}))
+        sheet.write_formula(1, 1, "=1+1", None, 2)
+        sheet.write_formula(1, 2, "=1+2", None, 3)
+    with zipfile.ZipFile(out) as book:
+        sheet = book.read("xl/worksheets/sheet1.xml").replace(b"<v>3</v>", b"")
+    first, second = read(tmp_path, replaced(out.getvalue(), "xl/worksheets/sheet1.xml", sheet))
+    assert first[1] == ["#DATE!", "#DATE!", "46143", "46143", "#DATE!", "46143", "46143"]
+    assert second[1] == ["#DATE!", "2", "#FORMULA!"]
+
+
 @pytest.mark.parametrize(
     ("encoding", "name"), [("utf-8-sig", "Jörg"), ("utf-16", "Jörg"), ("cp1252", "Jörg – €")]
 )
 def test_text_is_read_in_the_encodings_of_windows(tmp_path, encoding, name):
     rows = read(tmp_path, f"id;name\r\n7;{name}\r\n".encode(encoding), "roster.csv")
     assert rows == [(1, ["id", "name"]), (2, ["7", name])]
+
+
+def test_an_old_workbook_is_told_from_a_text(tmp_path):
+    with pytest.raises(ClassError, match=r"old workbook \(\.xls\), or has a password"):
+        read(tmp_path, b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1 id;name", "roster.xls")
 
 
 def replaced(data, name, content):

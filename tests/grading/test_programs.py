@@ -208,7 +208,11 @@ def test_ordinary_programs_may_run(text):
         (">>> def halve(image, by):\n...     return image // by\n", "", 1),
         (SPEC["traps"]["rounded"], "trap:rounded", Fraction(1, 2)),
         ("def halve(image, by):\n    return image / by\n", "program-dtype", Fraction(1, 4)),
-        ("def halve(image, by):\n    return np.uint16(image // by)\n", "program-dtype", Fraction(1, 4)),
+        (
+            "def halve(image, by):\n    return np.uint16(image // by)\n",
+            "program-dtype",
+            Fraction(1, 4),
+        ),
         ("def halve(image, by):\n    return image[0] // by\n", "program-shape", Fraction(1, 4)),
         ("def halve(image, by):\n    return image\n", "program-values", Fraction(1, 4)),
         ("def halve(image, by):\n    return 3\n", "program-no-array", Fraction(1, 4)),

@@ -155,7 +155,7 @@ def test_steps_are_named_by_their_letters_and_words_together():
     table = {"kind": "order", "steps": ["A", "B"], "before": [["A", "B"]],
              "words": {"A": "light falls in", "B": "charge is read"}}  # fmt: skip
     right = grade_answer(table, "A light falls in, B charge is read")
-    other = grade_answer(table, "B charge is read, A light falls in")
+    other = grade_answer(table, "B: charge is read, A: light falls in")
     assert (right.verdict, other.verdict) == ("correct", "wrong")
     assert other.read_as == "B A"
 

@@ -38,7 +38,7 @@ from quizgen.paper.answer_key import FORMAT, parse_answer_key
 from quizgen.paper.blueprint import load_blueprint
 
 TEMPLATE = """
-topic = "algebra"
+topic = "{topic}"
 tier = "A"
 [draw]
 a = {{ {draw} }}
@@ -46,19 +46,17 @@ a = {{ {draw} }}
 points = {points}
 answer = {{ {answer} }}
 {more}"""
+RULES = {
+    "topic": "algebra", "draw": "pick = [2, 3, 5, 7]", "points": "1",
+    "answer": 'kind = "tf", true = "a > 4"', "more": "",
+}  # fmt: skip
 PROSE = "# {title}\nLet $a$ = {{{{ a }}}}.\n\n## why\nCount.\n"
 
 
-def a_bank(
-    root, *, name="compare", title="A comparison", draw="pick = [2, 3, 5, 7]", points="1", topic="",
-    answer='kind = "tf", true = "a > 4"', more="",
-):  # fmt: skip
+def a_bank(root, *, name="compare", title="A comparison", **rules):
     folder = root / "templates" / name
     folder.mkdir(parents=True)
-    text = TEMPLATE.format(draw=draw, points=points, answer=answer, more=more)
-    (folder / "template.toml").write_text(
-        text.replace("algebra", topic) if topic else text, "utf-8"
-    )
+    (folder / "template.toml").write_text(TEMPLATE.format(**{**RULES, **rules}), "utf-8")
     for lang in ("en", "bn"):
         (folder / f"{lang}.md").write_text(PROSE.format(title=title), "utf-8")
     return Bank(root)

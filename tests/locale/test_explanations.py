@@ -8,7 +8,9 @@ from pathlib import Path
 
 import pytest
 
+from quizgen.cli.author_language import explain_error
 from quizgen.core.diagnostics import CODES, diagnose
+from quizgen.core.errors import QuizgenError
 from quizgen.locale import SHIPPED
 from quizgen.locale.explanations import (
     choose_explained_language,
@@ -76,3 +78,9 @@ def test_each_sentence_of_an_error_is_still_said():
 )  # fmt: skip
 def test_an_error_about_a_class_is_said_in_german_with_its_place(said, german):
     assert translate_error(said, "de") == german
+
+
+def test_the_language_is_not_looked_for_in_a_class_file_that_no_reader_takes(tmp_path):
+    (tmp_path / "class.toml").write_text("lang = " + "[" * 100_000, "utf-8")
+    error = QuizgenError("out: nothing has been marked yet (quizgen class mark)")
+    assert explain_error(error, ["class", "lists", str(tmp_path)]) == str(error)

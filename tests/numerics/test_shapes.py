@@ -11,9 +11,6 @@ from sweep import together
 from quizgen.numerics import ufunc
 
 COUNT = 12
-ONE_BY_ONE = {"luminosity.line_flux": 256}
-"""Functions that integrate each element by itself (0.4 ms), and a block that is long enough."""
-
 CLOSE = 2e-15
 """Longer and shorter ways may differ by a few units in the last place."""
 
@@ -53,9 +50,8 @@ def test_arguments_broadcast(name):
 
 
 @pytest.mark.parametrize("name", SPACES)
-def test_any_length(name, monkeypatch):
+def test_any_length(name):
     """Around the length of a block, and with a last block of one element."""
-    monkeypatch.setattr(ufunc, "BLOCK", ONE_BY_ONE.get(name, ufunc.BLOCK))
     call, columns = function(name), drawn(name)
     base = filled(call(*columns))
     for length in (ufunc.BLOCK, ufunc.BLOCK + 1):

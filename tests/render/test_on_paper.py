@@ -18,6 +18,7 @@ from quizgen.paper.paper import build_paper, single_question_paper
 from quizgen.render import html, pdf, render_paper
 from quizgen.render.answer_fields import count_columns
 from quizgen.render.layouts import count_working_rows
+from quizgen.render.scanned_paper import render_scanned_paper
 from quizgen.render.text import format_question
 from quizgen.render.typst_document import _load_font_collection, compile_pdf
 
@@ -47,6 +48,16 @@ def test_there_is_room_only_where_something_is_computed_and_more_for_more_steps(
     assert {room for steps, room, form in rows if not steps or form != "line"} == {0}
     typed = [(steps, room) for steps, room, form in rows if steps and form == "line"]
     assert max(room for steps, room in typed if steps == 1) < max(room for _, room in typed) <= 8
+
+
+def test_a_scanned_number_has_a_cell_for_each_sign_of_three_figures(bank):
+    """``-0.745``, a coordinate of that question, has six; a cell is 4 mm wide."""
+    template = bank.template("radial-point-off-axis")
+    paper = single_question_paper(template, 3, "en", figures=False)
+    _, places = render_scanned_paper(paper, "A:{}".format)
+    widths = [field.w for field in places.fields if field.is_number]
+    assert len(widths) == 3
+    assert min(widths) // 4 >= 6
 
 
 def test_the_cover_has_aids_points_minutes_and_a_table(mock, body):

@@ -142,3 +142,8 @@ def test_in_an_exam_lines_are_read_back_and_not_judged(client):
     lines = read_back(client, found[1], token, f"a-{found[2]}", "F = 9 m a\na = F/(\n")
     assert [line[:2] for line in lines] == [("ambiguous", "F = 9·m·a"), ("unreadable", "a = F/(")]
     assert lines[0][2] == ""
+
+
+def test_a_bank_without_formulas_has_no_page_of_them(client):
+    found = [client.get(address).status_code for address in ("/formulas", "/formulas.pdf")]
+    assert found == [404, 404]

@@ -197,6 +197,14 @@ def serve(database, bank_folder, monkeypatch):
         began.pop().end()
 
 
+def test_a_file_of_the_bank_that_changes_is_another_version(bank_folder):
+    bank = Bank(bank_folder, trusted=True)
+    before = papers_ahead.compute_stock_version(bank)
+    solver = next((bank_folder / "solvers").rglob("*.py"))
+    solver.write_text(solver.read_text("utf-8") + "\n", "utf-8")
+    assert papers_ahead.compute_stock_version(bank) != before
+
+
 @pytest.mark.slow
 class TestServer:
     def test_exams_begin_with_papers_of_the_stock_which_is_filled_again(self, serve):

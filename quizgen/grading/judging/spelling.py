@@ -9,6 +9,8 @@ from collections import Counter
 from collections.abc import Callable, Iterable
 from functools import cache, lru_cache
 
+from quizgen.locale import list_languages, load_words
+
 _BRITISH = (
     ("colour", "color"),
     ("grey", "gray"),
@@ -46,6 +48,26 @@ def fold_word(text: str) -> str:
     for old, new in (*_UMLAUTS, *_BRITISH):
         text = text.replace(old, new)
     return text.replace(" ", "")
+
+
+@cache
+def load_translations() -> dict[str, tuple[str, ...]]:
+    """Return common words of other languages, folded, with what they say in English."""
+    return {
+        fold_word(word): tuple(said)
+        for lang in list_languages()
+        for word, said in load_words(lang, "answers").get("said", {}).items()
+    }
+
+
+def find_translation(word: str) -> tuple[str, ...]:
+    """Return what a word says in English, maybe with an adjective's ending; none if unknown."""
+    folded, known = fold_word(word), load_translations()
+    stem = _ADJECTIVE.sub("", folded)
+    return known.get(folded) or known.get(stem) or known.get(f"{stem}e", ())
+
+
+_ADJECTIVE = re.compile(r"(?<=.{4})e[rsnm]?$")
 
 
 MOST = 2

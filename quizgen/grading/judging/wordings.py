@@ -12,7 +12,12 @@ from collections.abc import Sequence
 from functools import cache, lru_cache
 from itertools import pairwise
 
-from quizgen.grading.judging.spelling import allowed_typos, fold_word, typo_distance
+from quizgen.grading.judging.spelling import (
+    allowed_typos,
+    find_translation,
+    fold_word,
+    typo_distance,
+)
 from quizgen.grading.reading.answer_reader import says_otherwise
 from quizgen.grading.reading.number_words import list_number_words
 from quizgen.locale import list_languages, load_words
@@ -23,11 +28,14 @@ _TOKEN = re.compile(
 _ROOT = re.compile(r"(?:sqrt|√) ?\(? ?(\d+) ?\)?")
 _SHARES = (
     (re.compile(r"\b(?:a |one )?half\b"), "1/2"),
+    (re.compile(r"\b(?:an |one )eighth\b"), "1/8"),
+    (re.compile(r"\b(?:a |one )sixteenth\b"), "1/16"),
     (re.compile(r"\b(?:a|one) third\b"), "1/3"),
-    (re.compile(r"\btwo thirds\b"), "2/3"),
-    (re.compile(r"\bthree quarters\b"), "3/4"),
+    (re.compile(r"\b(?:two thirds|zwei ?drittel)\b"), "2/3"),
+    (re.compile(r"\b(?:three quarters|drei ?viertel)\b"), "3/4"),
     (re.compile(r"\b(?:a |one )?quarter\b"), "1/4"),
-    (re.compile("∞"), "infinity"),
+    (re.compile("∞|(?<!\\S)(?:unendlich|অসীম)(?!\\S)"), "infinity"),
+    (re.compile(r"(?<![\d\w])\.(?=\d)"), "0."),
     (re.compile(r"\b50 ?%"), "1/2"),
     (re.compile(r"\b25 ?%"), "1/4"),
     (re.compile(r"\b75 ?%"), "3/4"),
@@ -114,24 +122,9 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
     """
     spoken = _split_words(typed)
     listed = [frozenset(_split_words(wording)) for wording in wordings]
-    said = frozenset(spoken)
-    same = [
-        place
-        for place, wording in enumerate(wordings, 1)
-        if said and said in _list_names_of(wording)
-    ]
-    if len(same) == 1:
-        return same[0]
-    names = _list_names_of(typed) - {said}
-    named = [
-        place for place, wording in enumerate(wordings, 1)
-        if names and names <= _list_names_of(wording)
-    ]  # fmt: skip
-    if len(named) == 1:
-        return named[0]
-    same = _find_same_pieces(typed, wordings)
-    if len(same) == 1:
-        return same[0]
+    called = _find_by_name(typed, wordings)
+    if called:
+        return called
     known = frozenset().union(*listed)
     meant = frozenset(_find_known_word(word, known) for word in _join_compounds(spoken, known))
     hits = [place for place, words in enumerate(listed, 1) if _own_words(words, listed) & meant]
@@ -141,7 +134,8 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
         return 0
     wanted = listed[hits[0] - 1]
     more = meant - wanted
-    if more & known or more & _AGAINST or len(more) > _MOST_WORDS_MORE:
+    counted = any(list_number_words().get(word, 0) > 1 or word.isdecimal() for word in more)
+    if counted or more & known or more & _AGAINST or len(more) > _MOST_WORDS_MORE:
         return 0
     if not all_named and not _says_enough(_split_words(wordings[hits[0] - 1]), meant, listed):
         return 0
@@ -169,26 +163,6 @@ def find_wording_in(
 def share_words(typed: str, wordings: Sequence[str]) -> bool:
     """Return whether an answer has a word of some wordings that says something."""
     return bool({*_split_words(typed)} & {word for one in wordings for word in _split_words(one)})
-
-
-@cache
-def load_translations() -> dict[str, tuple[str, ...]]:
-    """Return common words of other languages, folded, with what they say in English."""
-    return {
-        fold_word(word): tuple(said)
-        for lang in list_languages()
-        for word, said in load_words(lang, "answers").get("said", {}).items()
-    }
-
-
-def find_translation(word: str) -> tuple[str, ...]:
-    """Return what a word says in English, maybe with the ending of an adjective; none if unknown."""
-    folded, known = fold_word(word), load_translations()
-    stem = _ADJECTIVE.sub("", folded)
-    return known.get(folded) or known.get(stem) or known.get(f"{stem}e", ())
-
-
-_ADJECTIVE = re.compile(r"(?<=.{4})e[rsnm]?$")
 
 
 def list_translated(typed: str) -> list[str]:
@@ -236,6 +210,40 @@ def _find_nearest(meant: frozenset[str], listed: list[frozenset[str]]) -> list[i
     ]
 
 
+def _find_by_name(typed: str, wordings: Sequence[str]) -> int:
+    """Return the place of the only wording that is called so, by all of it or by its parts."""
+    said = frozenset(_split_words(typed))
+    names = _list_names_of(typed) - {said}
+    known = frozenset().union(*map(_split_words, wordings))
+    for found in (
+        [place for place, one in enumerate(wordings, 1) if said and said in _list_names_of(one)],
+        [place for place, one in enumerate(wordings, 1) if names and names <= _list_names_of(one)],
+        _find_same_pieces(typed, wordings),
+        [
+            place
+            for place, one in enumerate(wordings, 1)
+            if any(
+                said & known == name and _is_little_more(said - name)
+                for name in _list_names_of(one)
+            )
+        ],
+    ):
+        if len(found) == 1:
+            return found[0]
+    return 0
+
+
+def _is_little_more(words: frozenset[str]) -> bool:
+    """Return whether words beside a name neither deny it nor count anything."""
+    few = len(words) <= len(("one", "two", "three"))
+    return few and not (
+        words & _AGAINST
+        or _denies(words)
+        or says_otherwise(" ".join(words))
+        or any(word.isdecimal() or word in list_number_words() for word in words)
+    )
+
+
 def _find_same_pieces(typed: str, wordings: Sequence[str]) -> list[int]:
     """Return the places of wordings of the same pieces, in any order: ``night 1, day 2``."""
     said = _list_pieces(typed)
@@ -266,8 +274,8 @@ def _says_enough(
 ) -> bool:
     """Return whether an answer has enough of a wording: ``barrel``, not ``pixels`` for hot ones.
 
-    It has all numbers and letters that tell it from others, and at least half of the words that no other one has; a
-    word of its own only with two thirds of these, more of them only with all.
+    It has all numbers and letters that tell it from others, and at least half of the words that no
+    other one has; a word of its own only with two thirds of these, more of them only with all.
     """
     exact = {
         word
@@ -279,7 +287,7 @@ def _says_enough(
     said = own & meant
     if exact - meant or 2 * len(said) < len(own):
         return False
-    if said == own:
+    if said == own or any(len(word) >= LONG and word.isalpha() for word in said):
         return True
     more = len(meant - {*wording})
     if more == 1 and len(said) > 1 and 3 * len(said) >= 2 * len(own):
@@ -329,6 +337,8 @@ def _stem(word: str) -> str:
     return short if len(short) >= LEAST_STEM else word
 
 
+LONG = 9
+"""Letters of a word that tells a wording by itself."""
 _VERB_ENDING = re.compile(r"(?:ing|ed|ion|e)$")
 LEAST_STEM = 4
 """Letters that are left of a word whose ending does not matter."""

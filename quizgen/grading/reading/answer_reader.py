@@ -105,6 +105,14 @@ class _AroundWords(NamedTuple):
     altering: frozenset[str]
     """Words that deny a number, offer another one or change it."""
     denying: re.Pattern[str]
+    correcting: re.Pattern[str]
+    """A value that its writer has put in place of another, ``0.566 no, 0.569``."""
+    becoming: re.Pattern[str]
+    """What tells where a value goes, ``it drops to 208``: ``to`` is no range then."""
+    rounded: re.Pattern[str]
+    """What stands between a value and the same one rounded."""
+    rounding: re.Pattern[str]
+    """How far a value is said to be rounded, behind it."""
 
 
 @cache
@@ -135,26 +143,30 @@ def _load_around_words() -> _AroundWords:
         frozenset(found["leading-on"]),
         frozenset(found["altering"]),
         re.compile(rf"(?<![\w\u0980-\u09ff])(?:{listed['denying']}){_END}", re.IGNORECASE),
+        re.compile(
+            rf".*\d.*?[,;.:]? (?:(?:{listed['correcting']})[,:;.]? )+"
+            r"(?P<rest>[-+−]?[.,]?\d[^,;]*|[(\[][^()\[\]]*\d[^()\[\]]*[)\]])",
+            re.IGNORECASE | re.DOTALL,
+        ),
+        re.compile(
+            rf"^([^\d]*(?:{listed['becoming']})(?: (?:{listed['where']}))?) (?:{listed['onto']})"
+            r" (?=[-+−≈~]?[.,]?\d)",
+            re.IGNORECASE,
+        ),
+        re.compile(
+            rf",? (?:{listed['rounded']})(?: (?:{listed['onto']}))?:? (?=[-+−]?[.,]?\d)",
+            re.IGNORECASE,
+        ),
+        re.compile(
+            rf"[ ,(]+(?:{listed['rounded']}) (?:{listed['onto']}) \w+ (?:{listed['places']})\)?$",
+            re.IGNORECASE,
+        ),
     )
 
 
 _NO_UNIT_BEFORE_A_WORD = frozenset({"in", "a", "as", "at", "am", "um", "d", "to", "so", "is"})
 _IN_UNIT = re.compile(r"(?<=\d) ?\(? ?in ([^\W\d_°]+|°)\)?$", re.IGNORECASE)
 _CLOCK = re.compile(r"(\d{1,2})(?::([0-5]\d) ?h| ?h ?([0-5]\d))")
-_ROUNDED = re.compile(r",? (?:rounded|gerundet)(?: to| auf)?:? (?=[-+−]?[.,]?\d)", re.IGNORECASE)
-"""Between a value and the same one rounded."""
-_ROUNDING = re.compile(
-    r"[ ,(]+(?:rounded|gerundet) (?:to|auf) \w+ (?:significant |signifikante )?"
-    r"(?:decimal|digit|figure|place|stelle|nachkommastelle|ziffer)s?n?(?: places)?\)?$",
-    re.IGNORECASE,
-)
-_BECOMING = re.compile(
-    r"^([^\d]*(?:drop|fall|rise|wrap|goe|come|grow|change|sink|amount|shrink|increase|decrease|lead|"
-    r"saturate|clip|clamp|round)(?:s|ed|ped|es)?"
-    r"(?: (?:around|round|down|up|back|over|it))?) to (?=[-+−≈~]?[.,]?\d)",
-    re.IGNORECASE,
-)
-"""What tells where a value goes, ``it drops to 208``: ``to`` is no range then."""
 _CALLED = re.compile(r"[\w-]\(?$|-\s*$")
 """A call of a function, or a dash, right before a number."""
 _BETWEEN = re.compile(r"[\s\w.,:;\u0980-\u09ff-]*")
@@ -197,28 +209,54 @@ def list_plainer_texts(
     if plain != typed:
         yield plain
     if form == "formula":
-        bare = _WORDS_BEHIND.sub(
-            "", _ROOT_BEHIND.sub(r"sqrt(\1)", _ROOT_OF.sub(r"sqrt(\1)", plain))
-        )
-        yield bare
-        if "=" in bare:
-            yield bare.rpartition("=")[2]
-    if form in {"number", "quantity", "values"}:
+        yield from _list_barer_formulas(plain)
+    elif form in {"number", "quantity", "values"}:
         spelt = _write_words_as_numbers(typed if _SPOKEN_SHARE.match(typed) else plain)
         if form == "values":
             spelt = _write_items_as_numbers(spelt)
         if spelt != plain:
             yield spelt
         if form == "values":
-            yield from separate_labelled_values(spelt, names)
-            yield from rejoin_values(spelt, len(names), ranges=ranges)
-            yield from bind_values(spelt, names, scan_numbers)
-            last = _LAST_LIST.fullmatch(spelt) or _CORRECTED.fullmatch(spelt)
-            if last:
-                yield last[1]
+            yield from _list_plainer_values(spelt, names, ranges=ranges)
         else:
             yield from _single_answer(spelt, form)
             yield from _find_conclusion(spelt)
+
+
+def _list_plainer_values(text: str, names: AskedNames, *, ranges: bool) -> Iterator[str]:
+    """Yield several values with their labels, joints or the words around them read."""
+    bare = _NOUN_BEHIND.sub(lambda m: m[0] if says_otherwise(m[2]) else m[1], text)
+    if bare != text:
+        yield bare
+    yield from separate_labelled_values(text, names)
+    yield from rejoin_values(text, len(names), ranges=ranges)
+    yield from bind_values(text, names, scan_numbers)
+    last = _LAST_LIST.fullmatch(text)
+    corrected = _load_around_words().correcting.fullmatch(text)
+    yield from ([last[1]] if last else [corrected["rest"]] if corrected else [])
+
+
+_NOUN_BEHIND = re.compile(r"([=:] ?[-+−]?\d[\d.,/]*) ([^\W\d_]{4,})(?= *(?:[,;\n]|$))")
+"""What a labelled value counts, ``r = 30 Elektronen``."""
+
+
+def name_by_index(typed: str, names: AskedNames) -> str:
+    """Return ``Y_601 = 0.4, Y_709 = 0.3`` for ``601: 0.4, 709: 0.3``, if these are its indices."""
+    found = [(mark, find_name(mark[2], names)) for mark in _INDEXED.finditer(typed)]
+    if len(found) != len(names) or {name for _, name in found} != {*names}:
+        return typed
+    return _INDEXED.sub(lambda m: f"{m[1]}{find_name(m[2], names)} = ", typed)
+
+
+_INDEXED = re.compile(r"(^|[,;/\n] *)(\d{1,4}) ?[:=] ?(?=[-+−.]?\d)")
+
+
+def _list_barer_formulas(text: str) -> Iterator[str]:
+    """Yield a formula without words behind it, and the last side of several."""
+    text = _WORDS_BEHIND.sub("", text)
+    yield text
+    if "=" in text:
+        yield text.rpartition("=")[2]
 
 
 _ROOT_OF = re.compile(
@@ -230,14 +268,20 @@ _WORDS_BEHIND = re.compile(r" \((?:[^\W\d_]{3,}[ -]?)+\)$")
 _FRACTION_FACTOR = re.compile(r"(?<![\w.,^/*)])(\d+ ?/ ?\d+) (?=[(√]|[^\W\d_])")
 
 
-def join_fraction(typed: str) -> str:
-    """Return ``1/4 (x - 4)`` as a product: the blank parts the fraction from what it multiplies."""
+def write_in_signs(typed: str) -> str:
+    """Return a formula with ``root of N`` as a function, ``1/4 (x - 4)`` as a product.
+
+    The blank parts the fraction from what it multiplies.
+    """
+    typed = _ROOT_BEHIND.sub(r"sqrt(\1)", _ROOT_OF.sub(r"sqrt(\1)", typed))
     return _FRACTION_FACTOR.sub(r"(\1)*", typed)
 
 
 def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
     """Yield the one number among words; a quantity needs its unit if words follow."""
-    named_by, text = text, _BECOMING.sub(r"\1 ", _ROUNDING.sub("", _NAMED.sub("", text)))
+    around = _load_around_words()
+    named_by, text = text, _NAMED.sub("", text)
+    text = around.becoming.sub(r"\1 ", around.rounding.sub("", text))
     text = _IN_UNIT.sub(r" \1", text)
     if text != named_by:
         yield text
@@ -250,19 +294,19 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
     clock = _CLOCK.fullmatch(text)
     if clock:
         yield add_mixed_units(f"{int(clock[1])} h {int(clock[2] or clock[3])} min")
-    found, around = scan_numbers(text)
-    around = [*around[:-1], _DISTANCE.sub(" ", around[-1])]
-    if len(found) != 1 or found[0] == text or not _can_be_dropped(around):
+    found, words = scan_numbers(text)
+    words = [*words[:-1], _DISTANCE.sub(" ", words[-1])]
+    if len(found) != 1 or found[0] == text or not _can_be_dropped(words):
         return
-    behind = _WORD.search(around[1])
-    named = behind is not None and behind[0].lower() not in _load_around_words().leading_on
+    behind = _WORD.search(words[1])
+    named = behind is not None and behind[0].lower() not in around.leading_on
     if not found[0][-1].isdigit() or not (named or (behind and form == "quantity")):
         yield found[0]
 
 
 def _find_conclusion(text: str) -> Iterator[str]:
     """Yield the number that is concluded at the end: ``2^3 = 8, so 3 bits``."""
-    for shape in (_CONCLUDED, _DERIVED, _CORRECTED):
+    for shape in (_CONCLUDED, _DERIVED, _STEPS, _load_around_words().correcting):
         concluded = shape.fullmatch(text)
         if concluded and not says_otherwise(concluded["rest"]):
             yield add_mixed_units(concluded["rest"].rpartition("=")[2].strip() or text)
@@ -273,14 +317,10 @@ _CONCLUDED = re.compile(
     r",? (?P<rest>(?:[^,;]|(?<=\d),(?=\d))*\d(?:[^,;]|(?<=\d),(?=\d))*)",
     re.IGNORECASE | re.DOTALL,
 )
+_STEPS = re.compile(r"(?=[^,;]*\d[^,;]*=).*\d.*[,;] (?P<rest>[^,;]*\d[^,;]*)", re.DOTALL)
+"""A value that ends steps with commas between them, ``56*100 = 5600, 5600^2 = 31 MP``."""
 _DERIVED = re.compile(r"(?=.*[=√+*/]).*\d.*(?:->|→|=>|⇒) *(?P<rest>[^<>→⇒]*\d[^<>→⇒]*)", re.DOTALL)
 """A value behind the arrow at the end of a derivation."""
-_CORRECTED = re.compile(
-    r".*\d.*?[,;.:]? (?:no|nein|sorry|oops|wait|i mean|correction|korrektur|না)[,:;.]? "
-    r"(?:(?:no|wait|sorry|rather|it is|it's|i mean|nein|doch)[,:;.]? )*(?P<rest>[-+−]?[.,]?\d[^,;]*|[(\[][^()\[\]]*\d[^()\[\]]*[)\]])",
-    re.IGNORECASE | re.DOTALL,
-)
-"""A value that its writer has put in place of another."""
 
 
 def find_conclusion(typed: str) -> str:
@@ -303,7 +343,7 @@ _SAME_VALUE = re.compile(
 
 
 def _is_shrunk(number: str, remark: str) -> bool:
-    """Return whether a remark makes a number smaller: ``5 (smaller)``, but not ``1/5 (smaller)``."""
+    """Return whether a remark makes a number smaller: ``5 (smaller)``, not ``1/5 (smaller)``."""
     if not is_shrinking(remark):
         return False
     share = read_factor(remark).replace("(", "").replace(")", "")
@@ -402,7 +442,7 @@ def _write_words_as_numbers(text: str) -> str:
     """Return ``minus sixteen`` as ``-16``, ``27 min 26 s`` as ``1646 s``."""
     for name in ("digits", "blanks"):
         text = SourceText.of(text).substitute(*REWRITES[name]).text
-    text = _ROUNDED.sub(" ≈ ", _UNDERSCORED.sub("", text))
+    text = _load_around_words().rounded.sub(" ≈ ", _UNDERSCORED.sub("", text))
     typed_array = _TYPED_NUMBER.fullmatch(text)
     text = typed_array[1] if typed_array else text
     text = _write_share_of_unit(text)
@@ -442,18 +482,27 @@ def _write_item_as_number(piece: str) -> str:
     """Return one of several values with its number in digits, ``minus four`` as ``-4``."""
     if any(map(str.isdigit, piece)):
         return piece
+    labelled = _LABEL_BEFORE_WORD.match(piece)
+    if labelled:
+        return f"{labelled[1]} = {_write_item_as_number(piece[labelled.end() :])}"
     plain = _SIGNED.sub("", piece)
     spelt = replace_number_word(plain)
     return piece if spelt == plain else f"{'-' if plain != piece else ''}{spelt}"
 
 
+_LABEL_BEFORE_WORD = re.compile(r"([A-Z]'?(?:_?\d)?)(?: ?[=:] ?| )(?=[^\W\d])")
+"""A letter before a number in words, ``G পঁচিশ``."""
 _REMARKED = re.compile(
     r"([-+−]?\d[^()]*?) ?\(([^\W\d][^()]*|\d+ ?%? (?:of|von) [^()]*"
     r"|\d+(?:\.|[.,]\d+)? ?[^\W\d]{3}[^()\d]*)\)"
 )
 _REMARK = re.compile(r"(?<=\d) ?\([^\W\d][^()\d;,]*\)")
 _MINUS = re.compile(r"(?<![^\W\d_])(?:minus|মাইনাস) (?=[.,]?\d)", re.IGNORECASE)
-_LAST_LIST = re.compile(r".*\d.*= ?(\([^()=]+\)|\[[^\[\]=]+\])", re.DOTALL)
+_LAST_LIST = re.compile(
+    r"(?:.*\d.*|[^(,;]+)(?:=|:|, (?:so|thus|hence|therefore|also|daher|তাই)) ?"
+    r"(\([^()=]+\)|\[[^\[\]=]+\])",
+    re.DOTALL,
+)
 """The list at the end of equal ones: ``2·(1; 3) = (2; 6)``."""
 _ITEMS = re.compile(r"([;,\n] *| (?:and|und|ও|এবং|আর) )")
 

@@ -219,6 +219,7 @@ def _check_sides_agree(source: SourceText, sides: list[EqualitySide]) -> None:
     """
     for before, side in pairwise(sides):
         alike = _is_equal_side(sides[0], side) or _is_rounded_to(source, before, side)
+        alike = alike or _is_in_base_units(sides[0], side)
         if not alike and not _is_equal_side(*_without_percent(sides[0], side)):
             raise FormulaReadError("sides-differ", source.column(0), source.text)
 
@@ -233,6 +234,23 @@ def _is_rounded_to(source: SourceText, before: EqualitySide, side: EqualitySide)
     return bool(2 * abs(a - b) <= unit)
 
 
+def _is_in_base_units(first: EqualitySide, second: EqualitySide) -> bool:
+    """Return whether a side worked out without units is the other one, but for its prefix.
+
+    ``1920*1080*8*25 = 415 Mbit/s``: the side before has its unit from behind.
+    """
+    worked = [one for one in (first, second) if _WORKED_OUT.search(one.quantity.number.text)]
+    (a, _), (b, _) = _convert_to_base_units(first), _convert_to_base_units(second)
+    if len(worked) != 1 or not first.quantity.unit or not second.quantity.unit or a * b <= 0:
+        return False
+    factor = first.quantity.unit.factor
+    scales = [factor, *(fmpq(1000) ** power for power in range(1, 5))]
+    return any(
+        bool(abs(a - b * scale) <= _CLOSE * abs(a)) for one in scales for scale in (one, 1 / one)
+    )
+
+
+_WORKED_OUT = re.compile(r"\d ?[*/^] ?\d")
 _ROUNDED = re.compile(r"(?:→|->|≈|=>|⇒) ?[-−]?\d+(?![.,]?\d)[^\d=]*$")
 
 

@@ -30,7 +30,7 @@ _JOINTS = tuple(
         r" *(?:[-–—=]+>|[→⇒]) *",
         r",? +(?:(?:and )?then|und dann|dann|তারপর) +",
         r" +(?:vs\.?|versus) +",
-        r" +(?:and|und|ও|এবং|আর) +",
+        r" +(?:and|und|ও|এবং|আর|ar) +",
         r" */ *",
     )
 )

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from typing import TypeAlias
 
-from quizgen.grading.judging.spelling import fold_word
+from quizgen.grading.judging.spelling import find_translation, fold_word
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.locale import list_languages, load_words
 from quizgen.maths.notation import FormulaReadError
@@ -117,6 +117,7 @@ def _find_called_name(typed: str, names: AskedNames) -> str:
     if not isinstance(names, Mapping):
         return ""
     same = next((words for words in _same_labels() if typed in words), {typed})
+    same = {*same, *find_translation(typed)}
     fitting = [
         name
         for name, called in names.items()
@@ -202,6 +203,14 @@ def reorder_by_name(items: list[SourceText], names: AskedNames) -> list[SourceTe
     if len(placed) != len(names):
         raise FormulaReadError("item-count", 1, str(len(placed)), [str(len(names))])
     return [placed[name] for name in names]
+
+
+def are_counted_off(items: list[SourceText]) -> bool:
+    """Return whether the names of values only count them off: x, y, z; S1, S2, S3."""
+    names = [split_name(item)[0] for item in items]
+    last = "".join(name[-1:] for name in names)
+    alike = all(names) and len({name[:-1] for name in names}) == 1
+    return alike and any(counted.startswith(last) for counted in ("xyz", "123456789"))
 
 
 _LEADING = re.compile(rf"(?:{NAME}|{WORDS}) ?(?:=|≈|:|:=) ?")

@@ -120,6 +120,7 @@ WORDS = {
     "Kelvin": "K",
     "f/stop": "stop",
     "line pair": "lp",
+    "line pairs": "lp",
     "db": "dB",
     "DB": "dB",
     "Db": "dB",
