@@ -862,17 +862,19 @@ class Statement:
                     continue
                 if any(c.corrects for c in window) or all(item.is_general for item in items):
                     continue
-                if example.meaning == "denied":
+                if example.meaning == "denied" and not self._are_joined(window, example):
                     continue
                 fit = self._fit(items, [at for c in window for at in c.places], example)
                 if fit and fit[0] > 0 and not self._spread_denial(window, fit[1], example):
                     single |= set(range(first, last + 1))
                     yield Evidence(example.meaning, example.text, first, last, example.size, fit[1])
 
-    def _are_joined(self, window: Sequence[_Clause]) -> bool:
-        """Return whether clauses are joined by words such as *and*, and no sign parts them."""
+    def _are_joined(self, window: Sequence[_Clause], example: Example) -> bool:
+        """Return whether words such as *and* join clauses, and no sign; so in the example, too."""
         breaks = _vocabulary().breaks
-        return all(self.tokens[clause.places[0]].text in breaks for clause in window[1:])
+        return not breaks.isdisjoint(example.text.casefold().split()) and all(
+            self.tokens[clause.places[0]].text in breaks for clause in window[1:]
+        )
 
     @cached_property
     def _clause_tokens(self) -> list[list[int]]:
