@@ -55,7 +55,8 @@ class QuestionContext:
 class GradingOptions(msgspec.Struct, frozen=True):
     """Reading options: language of the sentences, decimal sign, and the question around.
 
-    ``points`` are the marks of the part, which limit what a missing unit costs.
+    ``points`` are the marks of the part, which limit what a missing unit costs; None if it stands
+    in no paper.
     ``settle`` allows a few seconds of a computer algebra system, in a process of its own, for a
     formula that sampling cannot decide.
     """
@@ -64,4 +65,4 @@ class GradingOptions(msgspec.Struct, frozen=True):
     decimal: str = "auto"
     context: QuestionContext | None = None
     settle: bool = False
-    points: Fraction = Fraction(1)
+    points: Fraction | None = None

@@ -209,7 +209,7 @@ def _judge_without_unit(
     if spec.bare:
         return _diagnose_unit_slip(spec, number, number.value, wanted, verdict)
     if verdict.credit:
-        return _deduct_missing_unit(spec, number, verdict, options.points)
+        return _deduct_missing_unit(spec, number, verdict, options.points or Fraction(1))
     ratio = _diagnose_ratio_for_decibel(spec, number.value, number.read_as)
     return ratio or _diagnose_unit_slip(spec, number, number.value, wanted, verdict)
 

@@ -190,8 +190,10 @@ class RubricSpec(WordSpec, kw_only=True, frozen=True):
         if sum(one.worth for one in self.criteria.values()) < parse_written_number(self.full):
             raise ValueError("the criteria have fewer points than the part")
 
-    def judge(self, typed: str, _options: GradingOptions, /) -> Verdict:
+    def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
         """Return what is suggested of a text, for a person who decides.
+
+        Its points are those that the part is worth where it is asked.
 
         Raises
         ------
@@ -206,12 +208,14 @@ class RubricSpec(WordSpec, kw_only=True, frozen=True):
         found = [one.name for one in made.findings if one.status in EARNING]
         refused = [one.name for one in made.findings if one.status == "refused"]
         missing = [one.name for one in made.findings if one.status in {"open", "missing"}]
+        full = parse_written_number(self.full)
+        worth = options.points or full
         note = "self-mark" if found or refused else "self-mark-open"
         return ambiguous(
             note if found or refused or made.touched else "self-mark-none",
             safe_echo(" ".join(typed.split()), 80),
-            right=_format_points(made.points),
-            of=_format_points(parse_written_number(self.full)),
+            right=_format_points(made.points * worth / full),
+            of=_format_points(worth),
             found=tuple(found),
             missing=tuple(missing),
             refused=tuple(refused),
@@ -310,10 +314,9 @@ SHARES = {"found": Fraction(1), "half": HALF, "follows": Fraction(1)}
 
 
 def _list_others(named: Mapping[str, frozenset[Words]], name: str) -> frozenset[Words]:
-    """Return the words for what other criteria are said of, which have none of its own words."""
+    """Return the words for what other criteria are said of, and this one is not."""
     mine = named[name]
-    others = [words for words in named.values() if words.isdisjoint(mine)]
-    return frozenset[Words]().union(*others) if mine else frozenset()
+    return frozenset[Words]().union(*named.values()) - mine if mine else mine
 
 
 def _sum_up(found: list[Evidence]) -> tuple[Status, Evidence | None]:

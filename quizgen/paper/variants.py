@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
@@ -9,6 +10,7 @@ from functools import lru_cache
 import msgspec
 
 from quizgen.bank.bank import Bank
+from quizgen.bank.markdown import PlainText, leaves
 from quizgen.bank.sampler import Sampler, sampler_for
 from quizgen.bank.template import Template
 from quizgen.bank.variant import SiblingContent, Variant, draw_variant, leading_digits
@@ -18,7 +20,7 @@ from quizgen.kinds import expression
 from quizgen.kinds.contract import asked_quantities
 from quizgen.maths.canonical import CanonicalForm, canonical_equation
 from quizgen.maths.notation import format_tree
-from quizgen.maths.numbers import to_float
+from quizgen.maths.numbers import parse_written_number, to_float
 from quizgen.maths.tree import Expr, substitute
 from quizgen.maths.values import Value
 from quizgen.question.figure import has_coloured_figure
@@ -39,19 +41,27 @@ class _SeenContent(msgspec.Struct):
 
     questions: set[str] = msgspec.field(default_factory=set)
     asked: set[str] = msgspec.field(default_factory=set)
+    printed: set[str] = msgspec.field(default_factory=set)
+    """Answers as keys print them, to three figures."""
     given: set[str] = msgspec.field(default_factory=set)
+    written: frozenset[str] = frozenset()
+    """Numbers that stand in the prose of all questions of the paper but the next one."""
 
     def add(self, one: Variant) -> None:
         """Add what a variant asks and states."""
         self.questions.add(one.identity)
         self.asked |= _collect_notable_answers(one)
+        self.printed |= _round_as_printed(one)
         self.given |= _collect_stated_numbers(one)
 
     def tells(self, one: Variant) -> bool:
         """Return whether a variant asks what is asked or stated, or states what is asked."""
         asked = _collect_notable_answers(one)
+        stated = _collect_stated_numbers(one)
+        told = self.given | self.written
+        answers = self.asked | self.printed
         return bool(
-            asked & self.asked or asked & self.given or self.asked & _collect_stated_numbers(one)
+            asked & (self.asked | told) or _round_as_printed(one) & told or answers & stated
         )
 
 
@@ -78,7 +88,9 @@ def draw_variants(
         If a question would stand in the paper again and has no other numbers.
     """
     seen = _SeenContent()
+    written = {name: _list_written_numbers(bank.template(name)) for name in names}
     for place, name in enumerate(names, 1):
+        seen.written = frozenset[str]().union(*(written[one] for one in names if one != name))
         near = [paper[place - 1] for paper in beside]
         one = _draw_least_revealing(bank.template(name), seed, place, seen, near, colour=colour)
         seen.add(one)
@@ -143,6 +155,12 @@ def _collect_notable_answers(one: Variant) -> set[str]:
     }
 
 
+def _round_as_printed(one: Variant) -> set[str]:
+    """Return the decimals that are asked for, as keys print them: 11.14 is 11.1."""
+    rounded = (f"{abs(to_float(v)):.{DIGITS}g}" for v in _iter_asked_values(one))
+    return {n for n in rounded if "." in n and _count_significant_digits(n) == DIGITS}
+
+
 def _collect_answer_numbers(one: Variant) -> set[str]:
     """Return all numbers that are asked for."""
     return set(map(leading_digits, _iter_asked_values(one)))
@@ -161,6 +179,21 @@ def _collect_stated_numbers(one: Variant) -> set[str]:
         for text in map(leading_digits, one.shown.values())
         if _count_significant_digits(text) >= DIGITS
     }
+
+
+_NUMBER = re.compile(r"(?<![\w./])\d+\.\d+(?![\w.]*\d)")
+
+
+def _list_written_numbers(template: Template) -> frozenset[str]:
+    """Return the decimals in the prose of a question, which stand in every variant of it."""
+    found: set[str] = set()
+    for text in template.texts.values():
+        for blocks in (text.stem, *(text.sections.get(name, ()) for name in template.labels)):
+            pieces = [one.text for one in leaves(blocks) if isinstance(one, PlainText)]
+            found |= {
+                leading_digits(parse_written_number(n)) for n in _NUMBER.findall(" ".join(pieces))
+            }
+    return frozenset(text for text in found if _count_significant_digits(text) >= DIGITS)
 
 
 def _count_significant_digits(text: str) -> int:

@@ -82,7 +82,7 @@ def test_the_table_of_a_class_knows_the_student_of_every_form(folder):
     ("lang", "count", "said"),
     [("en", 1, "1 answer could not be read as meant. Correct it"),
      ("en", 2, "2 answers could not be read as meant. Correct them"),
-     ("bn", 1, "1টি উত্তর পড়া যায়নি"), ("bn", 2, "2টি উত্তর পড়া যায়নি")],
+     ("bn", 1, "1টা উত্তর পড়া যায়নি"), ("bn", 2, "2টা উত্তর পড়া যায়নি")],
 )  # fmt: skip
 def test_answers_that_are_asked_back_are_counted_in_words(folder, lang, count, said):
     form = {"answers": dict.fromkeys(["2", "5"][:count], "3 +* (")}

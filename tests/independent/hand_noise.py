@@ -168,7 +168,7 @@ def index_and_shape(page: Page) -> dict[str, Any]:
     (line,) = page.programs
     row, column = map(int, numbers(line.partition("[")[2]))
     if not -height <= row < height:
-        words = ("no such row", "সারিটি নেই")
+        words = ("no such row", "সারিটা নেই")
     elif not -width <= column < width:
         words = ("no such column", "column-টা নেই")
     else:

@@ -8,6 +8,7 @@ sentence and its points, criterion by criterion.
 from __future__ import annotations
 
 import tomllib
+from fractions import Fraction
 from functools import cache
 from pathlib import Path
 
@@ -168,6 +169,27 @@ def test_a_contradiction_is_never_counted():
     assert not counted
 
 
+@pytest.mark.slow
+def test_an_examiner_finds_the_same_criteria():
+    """What is right is never overlooked whole, and nothing is found where all is wrong."""
+    rows = tomllib.loads((Path(__file__).parent / "blind_criteria.toml").read_text("utf-8"))["rows"]
+    variants = {(name, seed) for name, seed, *_ in rows}
+    drawn = {place: draw_variant(builtin_bank().template(place[0]), place[1]) for place in variants}
+    specs, equal, asked = {}, 0, 0
+    for name, seed, part, found, sentence in rows:
+        place = (name, seed, part)
+        if place not in specs:
+            labels = [label or "a" for label in drawn[place[:2]].template.labels]
+            specs[place] = ask_part(drawn[place[:2]], labels.index(part)).spec
+        made = specs[place].suggest(sentence)
+        wanted = found.split()
+        equal += sum(bool(one.points) == (one.name in wanted) for one in made.findings)
+        asked += len(made.findings)
+        assert wanted or not made.points, sentence
+        assert len(wanted) < len(made.findings) or made.touched, sentence
+    assert equal >= 0.95 * asked
+
+
 COMPARED = {
     "kind": "rubric", "full": "2", "synonyms": [],
     "criteria": {
@@ -266,6 +288,17 @@ def test_the_clause_that_is_gone_by_is_quoted():
         "I think the DoF shrinks", "the image gets brighter",
     ]  # fmt: skip
     assert made.points == parse_written_number("2")
+
+
+@pytest.mark.parametrize(("worth", "said"), [(None, "1 of 2"), (Fraction(3), "1.5 of 3")])
+def test_what_is_recognised_is_counted_in_the_points_of_the_part(worth, said):
+    from quizgen.grading.judge import explain_verdict, judge_answer
+    from quizgen.grading.options import GradingOptions
+    from quizgen.kinds.grade import load_spec
+
+    spec = load_spec(SPEC)
+    verdict = judge_answer(spec, "The depth of field shrinks.", GradingOptions(points=worth))
+    assert said in explain_verdict(spec, verdict, "en").message
 
 
 @pytest.mark.parametrize("word", ["পড়তে", "reading", "sensing", "lighted"])

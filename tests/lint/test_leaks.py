@@ -39,6 +39,7 @@ CHOICE = '[[part]]\nanswer = { kind = "choice", options = { x = true, y = false 
 TF = '[claims]\nx = true\n[[part]]\nanswer = { kind = "tf", from = "claims" }\n'
 PAPERS = [
     range(3),
+    pytest.param((145, 282), marks=pytest.mark.slow),  # 10.24 in prose, 11.1 as keys round it
     *(
         pytest.param(range(n, n + 6), marks=pytest.mark.slow)
         for n in range(3, draws(12, full=300), 6)

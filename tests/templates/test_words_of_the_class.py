@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-SECTION, JUDGED = re.compile(r"^## (\w+)"), {"gaps", "accept", "half", "refuse"}
+SECTION, JUDGED = re.compile(r"^## (\w+)"), {"gaps", "accept", "half", "refuse", "about"}
 ENDINGS = "|ের|ে|য়|য়ের|তে|কে|টি|টা|টির|গুলো|ও|ই"
 
 

@@ -72,7 +72,7 @@ def test_in_bangla_too(client, token):
     client.post("/settings", data={"token": token, "lang": "bn", "back": "/"})
     page = client.get("/questions", params={"q": "সারি"}).text
     assert found(page)
-    assert "টি প্রশ্ন" in page
+    assert "টা প্রশ্ন" in page
 
 
 def test_the_notes_stand_by_section_and_their_numbers_find_questions(

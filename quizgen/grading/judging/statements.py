@@ -123,6 +123,7 @@ class _Vocabulary:
     denials: frozenset[str]
     ahead: frozenset[str]
     doubts: tuple[tuple[str, ...], ...]
+    ended: frozenset[tuple[str, ...]]
     conditions: frozenset[str]
     harmless: frozenset[tuple[str, ...]]
     frames: tuple[tuple[str, ...], ...]
@@ -164,6 +165,7 @@ def _vocabulary() -> _Vocabulary:
         words("denials"),
         words("ahead"),
         tuple(rows("doubts")),
+        frozenset(rows("ended")),
         words("conditions"),
         frozenset(rows("harmless")),
         tuple(rows("frames")),
@@ -291,7 +293,8 @@ def is_form_of(word: str, wanted: str, *, slips: bool = True) -> bool:
     if not slips:
         return False
     return _is_slip(word, wanted) or any(
-        len(stem) > SHORTEST + 1 and len(word) - len(stem) <= SHORTEST and _is_near_stem(word, stem)
+        len(stem) > SHORTEST + 1 and _is_slip(typed, stem)
+        for typed in _stems(word)
         for stem in _stems(wanted)
     )
 
@@ -753,7 +756,8 @@ class Statement:
     ) -> Evidence:
         """Return evidence, left open where its clauses doubt it, or say it of something else."""
         if evidence.meaning not in {"said", "half"}:
-            return evidence
+            elsewhere = evidence.turned and self._is_said_of_another(evidence, mine, others)
+            return replace(evidence, meaning="open") if elsewhere else evidence
         clauses = range(evidence.first, evidence.last + 1)
         unsure = (
             self._is_said_of_another(evidence, mine, others)
@@ -774,9 +778,11 @@ class Statement:
     def _has_other_end(self, evidence: Evidence, example: Example) -> bool:
         """Return whether clauses also say the other end of a scale of an example.
 
-        Of sameness in any clause (*equal distances look unequal*), else in one of several.
+        Of sameness in any clause (*equal distances look unequal*), of amounts in one of several,
+        where an idea without amounts is not to have one, either (*S gets less, only H stays*).
         """
-        names = {"sameness"} if evidence.first == evidence.last else {"sameness", "amount"}
+        apart = evidence.first < evidence.last
+        names = {"sameness", "amount"} if apart else {"sameness"}
         wanted = {
             scale
             for step in example.steps
@@ -785,6 +791,8 @@ class Statement:
             if scale[0] in names
         }
         wanted -= {(name, -sign) for name, sign in wanted}
+        if apart and not any(item.scales for step in example.steps for item in step):
+            wanted |= {("amount", 1)}
         return bool(wanted) and any(
             (name, -sign) in wanted
             for clause in self.clauses[evidence.first : evidence.last + 1]
@@ -854,17 +862,19 @@ class Statement:
                     continue
                 if any(c.corrects for c in window) or all(item.is_general for item in items):
                     continue
-                if example.meaning == "denied" and not self._are_joined(window):
+                if example.meaning == "denied" and not self._are_joined(window, example):
                     continue
                 fit = self._fit(items, [at for c in window for at in c.places], example)
                 if fit and fit[0] > 0 and not self._spread_denial(window, fit[1], example):
                     single |= set(range(first, last + 1))
                     yield Evidence(example.meaning, example.text, first, last, example.size, fit[1])
 
-    def _are_joined(self, window: Sequence[_Clause]) -> bool:
-        """Return whether clauses are joined by words such as *and*, and no sign parts them."""
+    def _are_joined(self, window: Sequence[_Clause], example: Example) -> bool:
+        """Return whether words such as *and* join clauses, and no sign; so in the example, too."""
         breaks = _vocabulary().breaks
-        return all(self.tokens[clause.places[0]].text in breaks for clause in window[1:])
+        return not breaks.isdisjoint(example.text.casefold().split()) and all(
+            self.tokens[clause.places[0]].text in breaks for clause in window[1:]
+        )
 
     @cached_property
     def _clause_tokens(self) -> list[list[int]]:
@@ -965,6 +975,9 @@ class Statement:
         """Return the ends of scales at a token, rows of words such as ``nimmt ab`` included."""
         if place not in self._scales:
             word = self.tokens[place].text
+            if place and (self.tokens[place - 1].text, word) in _vocabulary().ended:
+                self._scales[place] = ()
+                return ()
             rows = tuple(
                 scale for row, scale in _vocabulary().phrases if self._has_loose_row(place, row)
             )
@@ -1172,14 +1185,14 @@ def _nearest_row(rows: Sequence[tuple[int, ...]], taken: Sequence[int]) -> tuple
 _ORDER = {"denied": 0, "half": 1, "said": 2, "open": 3}
 
 
-def _rank(evidence: Evidence) -> tuple[bool, bool, int, int]:
+def _rank(evidence: Evidence) -> tuple[bool, bool, int, bool, int]:
     """Return what the best fit comes first by.
 
-    That is one clause before several, what is sure, then how much was recognised, then the careful
-    meaning.
+    That is one clause before several, what is sure, then how much was recognised, then what is said
+    in its own words, then the careful meaning.
     """
     spread, unsure = evidence.last > evidence.first, evidence.meaning == "open"
-    return (spread, unsure, -evidence.size, _ORDER[evidence.meaning])
+    return (spread, unsure, -evidence.size, evidence.turned, _ORDER[evidence.meaning])
 
 
 def used_synonyms(groups: Mapping[str, Sequence[str]], texts: Iterable[str]) -> list[str]:
