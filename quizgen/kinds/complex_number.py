@@ -166,7 +166,7 @@ _UNIT_FIRST = re.compile(r"(?<![^\W\d_])([ij]) ?(?=\d)")
 
 def _spell_out(typed: str) -> str:
     """Return ``50∠53°`` and ``(50; 53°)`` as a formula, and ``j40`` as a product."""
-    polar = _SIZE_AND_ANGLE.fullmatch(typed.strip())
+    polar = _SIZE_AND_ANGLE.fullmatch(" ".join(typed.split()))
     if polar is None:
         return _UNIT_FIRST.sub(r"\1*", typed)
     unit = "" if polar["unit"] in {"rad", ""} else "°"

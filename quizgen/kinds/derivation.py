@@ -307,7 +307,7 @@ class DerivationSpec(WordSpec, kw_only=True, frozen=True):
             name: Criterion(points=one.points, accept=one.words)
             for name, one in self.reasons.items()
         }
-        looked = RubricSpec(kind="rubric", full=0, criteria=criteria)
+        looked = RubricSpec(kind="rubric", full=1, criteria=criteria)
         found = looked.judge(words, GradingOptions()).fields.get("found", ()) if words else ()
         names = found if isinstance(found, tuple) else ()
         share = marked.points + sum((_points(self.reasons[name]) for name in names), Fraction(0))

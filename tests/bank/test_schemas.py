@@ -167,6 +167,7 @@ UNUSED = {
 OF_MULTI = {"choice": {"negative"}, "tf": {"negative", "options"}}
 """What these kinds share with ``multi`` in marking, and do not have."""
 MADE = {
+    "calls",
     "accept",
     "said",
     "kind",
