@@ -22,7 +22,7 @@ from quizgen.question.part_context import ask_part
 
 Values = dict[str, float]
 Lines = dict[str, Line]
-HANDS = [5, pytest.param(draws(30, full=250), marks=pytest.mark.slow)]
+HANDS = [5, pytest.param(draws(20, full=250), marks=pytest.mark.slow)]
 WRONG_HANDS = [2, pytest.param(draws(10, full=35), marks=pytest.mark.slow)]
 
 

@@ -19,7 +19,7 @@ from quizgen.question.part_context import ask_part
 from quizgen.tradeoff.solving import draws_list
 
 NAMES = list(builtin_bank().template_paths)
-SEEDS = draws(3, full=1000)
+SEEDS = draws(2, full=1000)
 DRAWS = 300
 QUICKLY_COUNTED, MOST_COUNTED = 200, 60_000
 """Largest number of candidates that the default tests, and any tests, walk through for a pool."""
