@@ -23,4 +23,4 @@ def test_it_teaches(bank, name):
 @pytest.mark.slow
 @together("name", NAMES)
 def test_it_teaches_in_many_draws(bank, name):
-    assert errors(bank.template(name), draws(40, full=1000)) == []
+    assert errors(bank.template(name), draws(60, full=1000)) == []
