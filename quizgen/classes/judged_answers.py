@@ -15,6 +15,7 @@ from typing import TypeVar
 
 import msgspec
 
+from quizgen.classes.pseudonyms import student_mac
 from quizgen.core.cache import compute_digest
 from quizgen.core.decoding import json_decoder, prepare_type
 from quizgen.core.files import PRIVATE, write_all
@@ -50,7 +51,7 @@ class JudgedAnswers:
     """
 
     def __init__(self, folder: Path, secret: str) -> None:
-        self.folder, self._secret = folder, secret.encode()
+        self.folder, self._secret = folder, secret
         self._before = self._read()
         self._now: dict[str, bytes] = {}
 
@@ -91,7 +92,9 @@ class JudgedAnswers:
 
     def _seal(self, name: str, data: bytes) -> str:
         """Return the seal of a line."""
-        return compute_digest(self._secret, name.encode(), data)
+        return student_mac(
+            self._secret, "judged", name, data.decode("utf-8", "surrogateescape")
+        ).hex()
 
 
 @cache

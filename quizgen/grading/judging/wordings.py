@@ -235,8 +235,7 @@ def _find_by_name(typed: str, wordings: Sequence[str]) -> int:
 
 def _is_little_more(words: frozenset[str]) -> bool:
     """Return whether words beside a name neither deny it nor count anything."""
-    few = len(words) <= len(("one", "two", "three"))
-    return few and not (
+    return len(words) <= MOST_WORDS_BESIDE and not (
         words & _AGAINST
         or _denies(words)
         or says_otherwise(" ".join(words))
@@ -247,7 +246,7 @@ def _is_little_more(words: frozenset[str]) -> bool:
 def _find_same_pieces(typed: str, wordings: Sequence[str]) -> list[int]:
     """Return the places of wordings of the same pieces, in any order: ``night 1, day 2``."""
     said = _list_pieces(typed)
-    if len(said) < len(("one", "another")):
+    if len(said) < FEWEST_PIECES:
         return []
     return [place for place, one in enumerate(wordings, 1) if _list_pieces(one) == said]
 
@@ -337,6 +336,7 @@ def _stem(word: str) -> str:
     return short if len(short) >= LEAST_STEM else word
 
 
+MOST_WORDS_BESIDE, FEWEST_PIECES = 3, 2
 LONG = 9
 """Letters of a word that tells a wording by itself."""
 _VERB_ENDING = re.compile(r"(?:ing|ed|ion|e)$")
