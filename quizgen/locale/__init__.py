@@ -16,6 +16,8 @@ classes        the report of a marked exam
 tradeoff       the page of what accuracy costs
 web            the pages of ``quizgen serve``
 moving         their figures that move
+answers        words by which typed answers are read: `word_patterns` makes patterns of them
+statements     words that turn, join or compare what sentences say
 ============== ==================================================================
 
 A template has one ``<lang>.md``, too.
@@ -31,7 +33,7 @@ import tomllib
 import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Annotated, Any, ParamSpec, TypeVar, cast
 
@@ -115,9 +117,17 @@ def register_languages(langs: Iterable[str] = (), place: Path | None = None) -> 
         forget_words()
 
 
-def cache_words(make: Callable[P, R]) -> Callable[P, R]:
-    """Return a function whose results are kept until the words of another language are added."""
-    kept = cache(make)
+def cache_words(make: Callable[P, R], most: int | None = None) -> Callable[P, R]:
+    """Return a function whose results are kept until the words of another language are added.
+
+    Parameters
+    ----------
+    make : callable
+        Of words or texts.
+    most : int, optional
+        Results that are kept at once; all of them if it is left out.
+    """
+    kept = lru_cache(maxsize=most)(make)
     _FORGETTING.append(kept.cache_clear)
     return cast("Callable[P, R]", kept)
 

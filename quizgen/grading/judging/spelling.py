@@ -7,30 +7,18 @@ import re
 import unicodedata
 from collections import Counter
 from collections.abc import Callable, Iterable
-from functools import cache, lru_cache
+from functools import cache, lru_cache, partial
 
-from quizgen.locale import list_languages, load_words
+from quizgen.locale import cache_words
+from quizgen.locale.word_patterns import WordPattern, list_tables, list_words
 
-_BRITISH = (
-    ("colour", "color"),
-    ("grey", "gray"),
-    ("centre", "center"),
-    ("metre", "meter"),
-    ("isation", "ization"),
-    ("ise ", "ize "),
-    ("ising", "izing"),
-    ("fibre", "fiber"),
-    ("behaviour", "behavior"),
-    ("aluminium", "aluminum"),
-)
-_UMLAUTS = (("ä", "ae"), ("ö", "oe"), ("ü", "ue"), ("ß", "ss"))
-_ARTICLES = re.compile(r"^(?:the|an|a|der|die|das|ein|eine|it is|its) (?=\S)")
+_ARTICLES = WordPattern(r"^«spelling.articles» (?=\S)")
 _DASH = re.compile(r"[-‐‑‒–—−_/]")
 _DASHES = re.compile(r"(?<=[^\W_])[-‐‑‒–—−_/]|[-‐‑‒–—−_/](?!\d)")
 """Hyphens and dashes, but not the sign of a number."""
 
 
-@lru_cache(maxsize=4096)
+@partial(cache_words, most=4096)
 def fold_word(text: str) -> str:
     """Return a word answer without what does not matter in it.
 
@@ -45,29 +33,42 @@ def fold_word(text: str) -> str:
         text = _DASHES.sub(" ", text).replace("−", "-")
     text = " ".join(text.split()).strip(" .,;:!?\"'()।")
     text = _ARTICLES.sub("", text)
-    for old, new in (*_UMLAUTS, *_BRITISH):
+    for old, new in _list_variants():
         text = text.replace(old, new)
     return text.replace(" ", "")
 
 
-@cache
+@cache_words
+def _list_variants() -> tuple[tuple[str, str], ...]:
+    """Return spellings of every language with those in whose place they stand: colour, color."""
+    pairs = (row.partition("=") for row in list_words("spelling.variants"))
+    return tuple((old, new) for old, _, new in pairs)
+
+
+@cache_words
 def load_translations() -> dict[str, tuple[str, ...]]:
     """Return common words of other languages, folded, with what they say in English."""
     return {
         fold_word(word): tuple(said)
-        for lang in list_languages()
-        for word, said in load_words(lang, "answers").get("said", {}).items()
+        for table in list_tables("said")
+        for word, said in table.items()
     }
 
 
 def find_translation(word: str) -> tuple[str, ...]:
     """Return what a word says in English, maybe with an adjective's ending; none if unknown."""
     folded, known = fold_word(word), load_translations()
-    stem = _ADJECTIVE.sub("", folded)
-    return known.get(folded) or known.get(stem) or known.get(f"{stem}e", ())
+    plain = (known[word] for word in _list_plain_forms(folded) if word in known)
+    return known.get(folded) or next(plain, ())
 
 
-_ADJECTIVE = re.compile(r"(?<=.{4})e[rsnm]?$")
+def _list_plain_forms(word: str) -> list[str]:
+    """Return an adjective without its ending, and with the one that dictionaries have."""
+    stem = _ADJECTIVE.sub("", word)
+    return [stem, *(f"{stem}{ending}" for ending in list_words("spelling.dictionary-endings"))]
+
+
+_ADJECTIVE = WordPattern(r"(?<=.{4})«spelling.adjective-endings»$")
 
 
 MOST = 2
@@ -128,10 +129,7 @@ def nearest_terms(typed: str, terms: Iterable[str]) -> tuple[list[str], int]:
     return best, least
 
 
-_PREFIXES = re.compile(
-    r"^(?:anti|non|nicht|dis|mis|trans|over|under|super|sub|pre|post|un|in|im|ir|il|an|de|re|ab|ent|be|ver|a)"
-    r"(?=.{3})"
-)
+_PREFIXES = WordPattern(r"^«spelling.prefixes»(?=.{3})")
 
 
 def is_another_word(typed: str, term: str, known: Iterable[str]) -> bool:
@@ -155,7 +153,7 @@ def is_another_word(typed: str, term: str, known: Iterable[str]) -> bool:
     return changed == 2 and sorted(word) != sorted(wanted)
 
 
-@lru_cache(maxsize=4096)
+@partial(cache_words, most=4096)
 def _strip_word_prefix(word: str) -> str:
     """Return a folded word without a prefix that turns or shifts its meaning."""
     return _PREFIXES.sub("", word)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Sequence
-from functools import lru_cache
+from functools import partial
 from itertools import pairwise
 
 from quizgen.grading.judging.spelling import (
@@ -273,7 +273,7 @@ def _find_known_word(word: str, known: frozenset[str]) -> str:
     return near[0] if len(near) == 1 else word
 
 
-@lru_cache(maxsize=4096)
+@partial(cache_words, most=4096)
 def _stem(word: str) -> str:
     """Return an English word without the ending of its verb: ``averag`` of ``averaging``."""
     short = _VERB_ENDING.sub("", word)
@@ -288,7 +288,7 @@ LEAST_STEM = 4
 """Letters that are left of a word whose ending does not matter."""
 
 
-@lru_cache(maxsize=1024)
+@partial(cache_words, most=1024)
 def _split_words(text: str) -> tuple[str, ...]:
     """Return the words of a text by which wordings are told apart, in order."""
     text = _ROOT.sub(r"√\1", unicodedata.normalize("NFC", text).casefold().replace("−", "-"))
