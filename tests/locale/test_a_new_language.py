@@ -18,7 +18,7 @@ from pseudo import LANG, accented, write_bank, write_language
 
 from quizgen import figures, locale, mark_part, typeset
 from quizgen.bank.bank import builtin_bank
-from quizgen.locale import list_languages, load_words
+from quizgen.locale import check_translations, custom, list_languages, load_words
 from quizgen.maths.notation import parse_formula
 
 pytestmark = pytest.mark.slow
@@ -171,6 +171,19 @@ def test_answers_are_read_in_words_of_the_language(
         monkeypatch.undo()
         locale.forget_words()
     assert not mark(typed).is_graded
+
+
+def test_a_row_of_a_bank_without_its_number_is_told_of_and_left_out(tmp_path):
+    (tmp_path / "eo").mkdir()
+    (tmp_path / "eo" / "language.toml").write_text('name = "Esperanto"\n', encoding="utf-8")
+    (tmp_path / "eo" / "answers.toml").write_text(
+        '[numbers]\nlarger = ["cent"]\n', encoding="utf-8"
+    )
+    said = [problem.message for problem in check_translations(tmp_path)]
+    assert any("numbers" in one and "begin with its number" in one for one in said), said
+    english = load_words("en", "answers")
+    own = custom.merge_translation(english, {"numbers": {"larger": ["cent"]}})
+    assert own["numbers"]["larger"] == english["numbers"]["larger"]
 
 
 def test_practice_speaks_the_language(place):
