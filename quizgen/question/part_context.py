@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
-from quizgen.bank.markdown import InlineFormula, PlainText, Slot, leaves
+from quizgen.bank.markdown import leaves
 from quizgen.bank.pools import condition_holds, matching_pairs, select_from_pool, selected_claims
 from quizgen.bank.rules import get_claim
 from quizgen.bank.sampler import shuffle
@@ -41,6 +41,7 @@ from quizgen.question.interpolation import (
     inlines_to_text,
     join_unit,
 )
+from quizgen.typeset.prose import InlineFormula, PlainText, Slot
 
 _WORD = r"(?:[a-zäöüß-]{3,}|[\u0980-\u09ff]{3,})"
 _LAST_WORDS = re.compile(
