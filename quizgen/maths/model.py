@@ -42,6 +42,25 @@ def work_out(compute: Callable[[], T]) -> T:
         return compute()
 
 
+def leave_symbolic(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return one of SymPy's functions of numbers so that it waits for drawn ones.
+
+    Of names, ``gcd(a, b)`` is 1, as of polynomials, and ``isprime(a)`` fails.
+    """
+    from sympy import Function
+
+    module, name = getattr(function, "__module__", ""), getattr(function, "__name__", "")
+
+    def call(*args: Any) -> Any:
+        """Return the value, or the call as it is written if it has names in it."""
+        if any(getattr(arg, "free_symbols", ()) for arg in args):
+            return Function({"igcd": "gcd", "ilcm": "lcm"}.get(name, name))(*args)
+        return function(*args)
+
+    waits = isinstance(module, str) and module.startswith("sympy.")
+    return call if waits and not isinstance(function, type) else function
+
+
 @dataclass(frozen=True, slots=True)
 class Step:
     """One step of a derivation.

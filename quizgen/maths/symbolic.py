@@ -47,13 +47,22 @@ class FormResolver:
         with sympy.evaluate(True):
             try:
                 written = _make_strict(expression)
-                whole = self._put_forms_in(written)
+                whole = self._divide_polynomials(self._put_forms_in(written))
                 return self._convert(whole)
             except BankError:
                 raise
             except (AttributeError, TypeError, ValueError, RuntimeError) as error:
                 what = f"SymPy cannot work {expression} out: {type(error).__name__}: {error}"
                 raise BankError(f"{what} (compute it before `with evaluate(False)`)") from error
+
+    def _divide_polynomials(self, whole: sympy.Basic) -> sympy.Basic:
+        """Return an expression with ``gcd`` and ``lcm`` of polynomials worked out."""
+        calls = [
+            call for call in getattr(whole, "atoms", lambda *_: ())(AppliedUndef)
+            if call.func.__name__ in {"gcd", "lcm"} and self._is_free(*call.args)
+        ]  # fmt: skip
+        found = {call: getattr(sympy, call.func.__name__)(*call.args) for call in calls}
+        return whole.xreplace(found) if found else whole
 
     def copy(self) -> FormResolver:
         """Return another one that has seen the same steps, to go on from here in a wrong way."""
