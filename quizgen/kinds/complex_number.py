@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 import msgspec
 from flint import fmpq
 
+from quizgen.grading.diagnosis.carry_forward import to_constant
 from quizgen.grading.judging.sampled_equality import values_agree
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm
@@ -82,14 +83,7 @@ class ComplexSpec(EntriesSpec, kw_only=True, frozen=True):
         FormulaReadError
             If it cannot be read, or the sides of a chain differ.
         """
-        *before, tree = (
-            read_formula(_spell_out(drop_name(side)), _UNITS, options.decimal).tree
-            for side in split_sides(typed)
-        )
-        value = evaluate_complex(tree, frozenset(_UNITS))
-        for side in before:
-            if any(map(_differ, evaluate_complex(side, frozenset(_UNITS)), value)):
-                raise FormulaReadError("sides-differ", 1, typed.strip()[:60])
+        tree, value = self._read(typed, options)
         read_as = pretty.format_formula(format_tree(tree))
         rounded = find_written_form(tree) == "polar"
         if self._is_near(value, self.parts, rounded=rounded):
@@ -98,6 +92,26 @@ class ComplexSpec(EntriesSpec, kw_only=True, frozen=True):
             if self._is_near(value, parts, rounded=rounded):
                 return wrong(read_as, f"trap:{name}")
         return wrong(read_as, self._find_slip(value))
+
+    def _read(self, typed: str, options: GradingOptions) -> tuple[Expr, ComplexValue]:
+        """Return the last side of a typed number and its value; errors as ``judge``."""
+        *before, tree = (
+            read_formula(_spell_out(drop_name(side)), _UNITS, options.decimal).tree
+            for side in split_sides(typed)
+        )
+        value = evaluate_complex(tree, frozenset(_UNITS))
+        for side in before:
+            if any(map(_differ, evaluate_complex(side, frozenset(_UNITS)), value)):
+                raise FormulaReadError("sides-differ", 1, typed.strip()[:60])
+        return tree, value
+
+    def read_form(self, typed: str, options: GradingOptions, /) -> Expr:
+        """Return a typed number as its two parts; errors as ``judge``."""
+        return Call("complex", tuple(map(to_constant, self._read(typed, options)[1])))
+
+    def replace_key(self, form: Expr, /) -> ComplexSpec:
+        """Return the specification with another number as its key, and without mistakes."""
+        return msgspec.structs.replace(self, parts=_list_parts(form), traps={})
 
     def _is_near(self, value: ComplexValue, parts: list[str], *, rounded: bool) -> bool:
         """Return whether a number is a key; size and angle written out may always be rounded."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import msgspec
 
+from quizgen.grading.diagnosis.carry_forward import to_constant
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.matrices import split_matrix
@@ -77,6 +78,17 @@ class MatrixSpec(EntriesSpec, kw_only=True, frozen=True):
             if _is_same(rows, entries, self.tolerance):
                 return wrong(read_as, f"trap:{name}")
         return _diagnose(self, rows, read_as)
+
+    def read_form(self, typed: str, options: GradingOptions, /) -> Expr | None:
+        """Return a typed matrix; None if its size is not that of the key; errors as ``judge``."""
+        rows, _ = _read_matrix(typed, options.decimal)
+        if list(map(len, rows)) != list(map(len, self.entries)):
+            return None
+        return Call("matrix", tuple(Call("row", tuple(map(to_constant, row))) for row in rows))
+
+    def replace_key(self, form: Expr, /) -> MatrixSpec:
+        """Return the specification with another matrix as its key, and without mistakes."""
+        return msgspec.structs.replace(self, entries=_write_entries(form), traps={})
 
     def show(self) -> str:
         """Return the key as it is printed, and as it can be typed back."""
@@ -154,11 +166,18 @@ def ask(part: PartContext) -> AskedPart[MatrixSpec]:
 
 def _list_entries(part: PartContext, form: Expr) -> Entries:
     """Return the entries of a form by row, as text; a vector is one column."""
-    matrix = require_form(part, form, "matrix", "vector")
-    if matrix.op == "vector":
-        return [[format_plain(arg)] for arg in matrix.args]
-    rows = [row.args for row in matrix.args if isinstance(row, Call)]
-    return [[format_plain(arg) for arg in row] for row in rows]
+    return _write_entries(require_form(part, form, "matrix", "vector"))
+
+
+def _write_entries(form: Expr) -> Entries:
+    """Return the entries of a matrix or vector as a key has them."""
+    rows = form.args if isinstance(form, Call) else ()
+    return [
+        [format_plain(x) for x in row.args]
+        if isinstance(row, Call) and row.op == "row"
+        else [format_plain(row)]
+        for row in rows
+    ]
 
 
 def explain_key(spec: MatrixSpec, _lang: str) -> TextOrInlines:

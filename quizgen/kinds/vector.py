@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 import msgspec
 
+from quizgen.grading.diagnosis.carry_forward import to_constant
 from quizgen.grading.judging.sampled_equality import values_agree
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm
@@ -92,6 +93,17 @@ class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
         credit, count = Fraction(right, len(values)), len(values)
         return verdict_by_share(credit, read_as, "matrix-entries", right=right, of=count)
 
+    def read_form(self, typed: str, options: GradingOptions, /) -> Expr:
+        """Return a typed vector; errors as ``judge``."""
+        plain = typed.replace("\\\\", ";").replace("&", ";")
+        pieces, _ = read_list(plain, len(self.components), options.decimal)
+        values = [read_entry(piece, options.decimal).value for piece in pieces]
+        return Call("vector", tuple(map(to_constant, values)))
+
+    def replace_key(self, form: Expr, /) -> ColumnSpec:
+        """Return the specification with another vector as its key, and without mistakes."""
+        return msgspec.structs.replace(self, components=_write_components(form), traps={})
+
     def _is_right(self, values: list[Value], components: list[str]) -> bool:
         """Return whether a vector is the key, or a multiple of it if ``up_to`` is "scale"."""
         if self.up_to == "scale":
@@ -137,9 +149,13 @@ def ask(part: PartContext) -> AskedPart[ColumnSpec]:
 
 def _list_components(part: PartContext, form: Expr) -> list[str]:
     """Return the components of a form as text; a matrix of one row is a vector, too."""
-    vector = require_form(part, form, "vector", "matrix")
-    args = vector.args
-    if vector.op == "matrix":
+    return _write_components(require_form(part, form, "vector", "matrix"))
+
+
+def _write_components(form: Expr) -> list[str]:
+    """Return the components of a vector, or of a matrix of one row, as a key has them."""
+    args = form.args if isinstance(form, Call) else ()
+    if isinstance(form, Call) and form.op == "matrix":
         (row,) = args
         args = row.args if isinstance(row, Call) else ()
     return [format_plain(arg) for arg in args]

@@ -19,6 +19,8 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
 
+import msgspec
+
 from quizgen.core.errors import BankError
 from quizgen.maths.chain import Chain, ChainStep
 from quizgen.maths.tree import names_in
@@ -166,12 +168,14 @@ class _ConvertedSteps:
         """Convert a step, and what mistakes put in its place or make follow for it."""
         name = _name_step(step)
         found, is_form = _convert_step(step, resolver)
-        (self.forms if is_form else self.steps).append(found)
         for trap in self.traps:
             if trap in replaced or trap in self._slipped:
                 self._add_wrong(trap, step, replaced.get(trap), found, resolver)
+        recipe = resolver.find_recipe(step.expr) if found.forms else None
+        whole = msgspec.structs.replace(found, recipe=recipe)
+        (self.forms if is_form else self.steps).append(whole)
         if is_form:
-            resolver.remember(name, step.expr)
+            resolver.remember(name, step.expr, found.expr)
 
     def _add_wrong(
         self,
@@ -192,7 +196,9 @@ class _ConvertedSteps:
         if replaced or wrong != right:
             (self.form_traps if is_form else self.traps)[trap].append(wrong)
         if is_form:
-            self._slipped.setdefault(trap, resolver.copy()).remember(right.name, taken.expr)
+            self._slipped.setdefault(trap, resolver.copy()).remember(
+                right.name, taken.expr, wrong.expr
+            )
 
 
 def _name_step(step: Step) -> str:

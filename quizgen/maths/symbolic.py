@@ -9,6 +9,8 @@ tree, too, whose outermost operators are those of ``FORMS``.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from typing import Any
 
 import sympy
 from sympy.core.function import AppliedUndef
@@ -17,9 +19,14 @@ from sympy.matrices.expressions.matexpr import MatrixExpr
 
 from quizgen.core.errors import BankError
 from quizgen.maths.from_sympy import from_sympy
+from quizgen.maths.recipes import STRUCTURES, Recipe, Use
 from quizgen.maths.tree import Call, Expr, Num, make_number, names_in
 
 _COMPLEX = (sympy.re, sympy.im, sympy.conjugate, sympy.arg)
+_UNWORKABLE = (BankError, AttributeError, TypeError, ValueError, RuntimeError)
+"""What is raised where SymPy cannot do what a solver asks, or comes to what is no formula."""
+_LARGEST_ENTRIES = 9
+"""Most entries of a matrix that is worked with entry by entry, as unknowns."""
 _EVALUATED = (sympy.Derivative, sympy.Integral, sympy.Limit, sympy.Subs)
 
 
@@ -35,6 +42,7 @@ class FormResolver:
     def __init__(self, free: tuple[str, ...]) -> None:
         self.free = frozenset(free)
         self.forms: dict[str, sympy.Basic] = {}
+        self.trees: dict[str, Expr] = {}
 
     def resolve(self, expression: sympy.Basic) -> tuple[Expr, bool]:
         """Return the tree of an expression, and whether it is a form.
@@ -51,7 +59,7 @@ class FormResolver:
                 return self._convert(whole)
             except BankError:
                 raise
-            except (AttributeError, TypeError, ValueError, RuntimeError) as error:
+            except _UNWORKABLE[1:] as error:
                 what = f"SymPy cannot work {expression} out: {type(error).__name__}: {error}"
                 raise BankError(f"{what} (compute it before `with evaluate(False)`)") from error
 
@@ -68,10 +76,12 @@ class FormResolver:
         """Return another one that has seen the same steps, to go on from here in a wrong way."""
         found = FormResolver(tuple(self.free))
         found.forms.update(self.forms)
+        found.trees.update(self.trees)
         return found
 
-    def remember(self, name: str, expression: sympy.Basic) -> None:
-        """Have later steps see a form under its name."""
+    def remember(self, name: str, expression: sympy.Basic, tree: Expr) -> None:
+        """Have later steps see a form under its name, with the tree that it came to."""
+        self.trees[name] = tree
         with sympy.evaluate(True):
             self.forms[name] = self._put_forms_in(_make_strict(expression))
 
@@ -81,6 +91,18 @@ class FormResolver:
         names = [call.func.__name__ for call in calls]
         names += [getattr(symbol, "name", "") for symbol in getattr(written, "free_symbols", ())]
         return tuple(name for name in self.forms if name in names)
+
+    def find_recipe(self, written: sympy.Basic) -> Recipe | None:
+        """Return how a step follows from the forms in it; None where SymPy solved for something."""
+        names = self.find_forms(written)
+        with sympy.evaluate(True), suppress(*_UNWORKABLE):
+            uses = _Uses(self.trees, self.free)
+            whole = uses.put_in(_make_strict(written), names)
+            whole = whole.doit() if whole.has(sympy.MatrixBase, MatrixExpr) else whole
+            if whole.has(sympy.Integral, sympy.Sum, sympy.Product):
+                return Recipe(from_sympy(whole), tuple(uses.found))
+            return Recipe(self._convert(whole)[0], tuple(uses.found))
+        return None
 
     def _put_forms_in(self, written: sympy.Basic) -> sympy.Basic:
         """Return an expression with the forms of earlier steps in place of their names.
@@ -161,6 +183,84 @@ class FormResolver:
         return Call("complex", tuple(map(from_sympy, parts))), True
 
 
+class _Uses:
+    """Names put in place of forms in an expression.
+
+    Parameters
+    ----------
+    trees : mapping of str to Expr
+        What each form came to.
+    free : collection of str
+        Names that no draw gives.
+    """
+
+    def __init__(self, trees: Mapping[str, Expr], free: frozenset[str]) -> None:
+        self.trees, self.free = trees, free
+        self.found: list[Use] = []
+
+    def put_in(self, written: sympy.Basic, forms: Sequence[str]) -> sympy.Basic:
+        """Return an expression with names for what it takes of forms.
+
+        Raises ``BankError`` if a form in it is none whose parts can be named.
+        """
+        symbols = {str(getattr(s, "name", "")): s for s in getattr(written, "free_symbols", ())}
+        place = {
+            symbols[name]: self._name_form(name, symbols[name]) for name in forms if name in symbols
+        }
+        whole = written.subs(place) if place else written
+        for kind in (sympy.Subs, sympy.Derivative, AppliedUndef):
+            calls = [one for one in whole.atoms(kind) if self._find_call(one) in forms]
+            whole = whole.xreplace({one: self._name_call(one) for one in calls})
+        return whole
+
+    def _find_call(self, one: sympy.Basic) -> str:
+        """Return the form that is called, maybe within a derivative."""
+        while isinstance(one, sympy.Subs | sympy.Derivative):
+            one = one.expr
+        return str(one.func.__name__) if isinstance(one, AppliedUndef) else ""
+
+    def _add(self, of: str, **how: Any) -> sympy.Symbol:
+        """Return a new name for a use of a form."""
+        name = f"carried{len(self.found) + 1}"
+        self.found.append(Use(name, of, **how))
+        return sympy.Symbol(name)
+
+    def _name_form(self, name: str, symbol: sympy.Basic) -> sympy.Basic:
+        """Return names for the numbers of a matrix or complex number, one for a formula."""
+        tree = self.trees[name]
+        if isinstance(tree, Call) and tree.op in {"matrix", "vector"}:
+            rows = [
+                [(r, c) for c in range(len(row.args))] if isinstance(row, Call) and row.op == "row"
+                else [(r,)] for r, row in enumerate(tree.args)
+            ]  # fmt: skip
+            if sum(map(len, rows)) > _LARGEST_ENTRIES:
+                raise BankError(f"{name} is too large to be worked with entry by entry")
+            return sympy.Matrix([[self._add(name, entry=one) for one in row] for row in rows])
+        if isinstance(tree, Call) and tree.op == "complex":
+            real, imaginary = (self._add(name, entry=(part,)) for part in (0, 1))
+            return real + sympy.I * imaginary
+        if (isinstance(tree, Call) and tree.op in STRUCTURES) or isinstance(symbol, MatrixExpr):
+            raise BankError(f"{name} is no formula")
+        return self._add(name)
+
+    def _name_call(self, one: sympy.Basic) -> sympy.Symbol:
+        """Return a name for ``f(x)``, ``f(2)``, its derivative, or the derivative at a place."""
+        later: dict[str, sympy.Basic] = {}
+        if isinstance(one, sympy.Subs):
+            later = {s.name: value for s, value in zip(one.variables, one.point, strict=True)}
+            one = one.expr
+        variables: tuple[sympy.Symbol, ...] = ()
+        if isinstance(one, sympy.Derivative):
+            variables, one = one.variables, one.expr
+        form = self.trees[one.func.__name__]
+        names = dict(zip(sorted(names_in(form) & self.free), one.args, strict=False))
+        by = tuple(next(n for n, arg in names.items() if arg == variable) for variable in variables)
+        ends = {n: later.get(getattr(arg, "name", ""), arg) for n, arg in names.items()}
+        moved = {n: arg for n, arg in ends.items() if getattr(arg, "name", "") != n}
+        at = tuple((n, from_sympy(arg)) for n, arg in moved.items())
+        return self._add(one.func.__name__, by=by, at=at)
+
+
 def _convert_structure(whole: sympy.Basic) -> Expr | None:
     """Return the tree of a matrix, a set, a vector, an equation or inequality, else None."""
     if isinstance(whole, sympy.MatrixBase | MatrixExpr):
@@ -190,6 +290,12 @@ def _evaluate(whole: sympy.Basic) -> sympy.Basic:
     return whole
 
 
+def _assume_real(whole: sympy.Basic) -> sympy.Basic:
+    """Return an expression whose names are real numbers: ``a < oo`` holds, and is left out."""
+    real = {s: sympy.Dummy(s.name, real=True) for s in whole.free_symbols if s.is_real is None}
+    return whole.xreplace(real).doit().xreplace({dummy: name for name, dummy in real.items()})
+
+
 def _order_powers(whole: sympy.Basic, free: Sequence[sympy.Symbol]) -> sympy.Basic:
     """Return a polynomial from its highest power down, as it is written by hand.
 
@@ -210,9 +316,9 @@ def _convert_evaluated(whole: sympy.Basic, free: Sequence[sympy.Symbol] = ()) ->
     try:
         return from_sympy(_order_powers(_evaluate(whole), free))
     except BankError:
-        if not (hasattr(whole, "has") and whole.has(sympy.Integral)):
+        if not (hasattr(whole, "has") and whole.has(sympy.Integral, sympy.oo)):
             raise
-        return from_sympy(whole)
+        return from_sympy(whole if whole.has(sympy.Integral) else _assume_real(whole))
 
 
 def _put_free_first(expr: Expr, free: frozenset[str]) -> Expr:
