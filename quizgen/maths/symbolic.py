@@ -8,7 +8,7 @@ tree, too, whose outermost operators are those of ``FORMS``.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from typing import Any
 
@@ -138,7 +138,7 @@ class FormResolver:
             *(condition for _, condition in whole.args)
         ):
             return self._convert_cases(whole)
-        found = _convert_structure(whole)
+        found = _convert_structure(whole, self._convert_entry)
         if found is not None:
             return found, True
         if _has_complex(whole):
@@ -148,6 +148,10 @@ class FormResolver:
         if free and not _is_written(whole):
             tree = _put_free_first(tree, self.free)
         return tree, bool(free)
+
+    def _convert_entry(self, whole: sympy.Basic) -> Expr:
+        """Return the tree of an entry of a matrix, which may be complex."""
+        return self._convert_complex(whole)[0] if _has_complex(whole) else _convert_evaluated(whole)
 
     def _is_free(self, *parts: sympy.Basic) -> bool:
         """Return whether any of these holds a name that no draw gives."""
@@ -261,14 +265,14 @@ class _Uses:
         return self._add(one.func.__name__, by=by, at=at)
 
 
-def _convert_structure(whole: sympy.Basic) -> Expr | None:
+def _convert_structure(whole: sympy.Basic, convert: Callable[[sympy.Basic], Expr]) -> Expr | None:
     """Return the tree of a matrix, a set, a vector, an equation or inequality, else None."""
     if isinstance(whole, sympy.MatrixBase | MatrixExpr):
-        return _convert_matrix(whole)
+        return _convert_matrix(whole, convert)
     if isinstance(whole, sympy.Set):
         return _convert_set(whole.doit())
     if isinstance(whole, sympy.Tuple | list | tuple):
-        return Call("vector", tuple(map(from_sympy, whole)))
+        return Call("vector", tuple(map(convert, whole)))
     if isinstance(whole, sympy.Eq | sympy.Lt | sympy.Le | sympy.Gt | sympy.Ge):
         return from_sympy(whole)
     return None
@@ -348,15 +352,15 @@ def _is_infinite(part: sympy.Basic) -> bool:
     return any(not bound.is_finite for limit in part.limits for bound in limit[1:])
 
 
-def _convert_matrix(whole: sympy.Basic) -> Expr:
+def _convert_matrix(whole: sympy.Basic, convert: Callable[[sympy.Basic], Expr]) -> Expr:
     """Return a matrix with evaluated entries; one of a single column is a vector."""
     explicit = whole.doit().as_explicit() if isinstance(whole, MatrixExpr) else whole
     rows = explicit.tolist()
     if explicit.shape[1] == 1:
-        return Call("vector", tuple(_convert_evaluated(row[0]) for row in rows))
+        return Call("vector", tuple(convert(row[0]) for row in rows))
     return Call(
         "matrix",
-        tuple(Call("row", tuple(_convert_evaluated(x) for x in row)) for row in rows),
+        tuple(Call("row", tuple(convert(x) for x in row)) for row in rows),
     )
 
 

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
-from symbolic_bank import BANK, PROSE
+from symbolic_bank import write_questions
 
 import quizgen
 
@@ -22,7 +20,7 @@ MODEL = Model(
     ),
 )
 """, "a = { pick = [2] }\\nc = { pick = [3] }", [
-        ("expression", "f"), ("expression", "df"), ("number", "D"), ("expression", "t"), ("number", "A"),
+        'kind = "expression", of = "f"', 'kind = "expression", of = "df"', 'kind = "number", of = "D", sigfigs = 4', 'kind = "expression", of = "t"', 'kind = "number", of = "A", sigfigs = 4',
     ]),
     "line": ("""
 a, b, m, x = symbols("a b m x")
@@ -31,7 +29,7 @@ MODEL = Model(
     free=("x",),
     steps=(Step(m, b/a), Step("y", m*x + b), Step("s", Interval(a - m, a + m))),
 )
-""", "a = { pick = [2] }\\nb = { pick = [6] }", [("number", "m"), ("expression", "y"), ("interval", "s")]),
+""", "a = { pick = [2] }\\nb = { pick = [6] }", ['kind = "number", of = "m", sigfigs = 4', 'kind = "expression", of = "y"', 'kind = "interval", of = "s"']),
     "matrix": ("""
 a, c, d = symbols("a c d")
 A = MatrixSymbol("A", 2, 2)
@@ -39,7 +37,7 @@ MODEL = Model(
     given={a: "", c: ""},
     steps=(Step(A, Matrix([[a, 1], [c, 2]])), Step(d, det(A)), Step("B", A.inv())),
 )
-""", "a = { pick = [4] }\\nc = { pick = [3] }", [("matrix", "A"), ("number", "d"), ("matrix", "B")]),
+""", "a = { pick = [4] }\\nc = { pick = [3] }", ['kind = "matrix", of = "A"', 'kind = "number", of = "d", sigfigs = 4', 'kind = "matrix", of = "B"']),
     "impedance": ("""
 R, X, s = symbols("R X s")
 z = Symbol("z")
@@ -47,36 +45,13 @@ MODEL = Model(
     given={R: "", X: ""},
     steps=(Step(z, R + X*I), Step("y", 1/z), Step(s, Abs(z))),
 )
-""", "R = { pick = [3] }\\nX = { pick = [4] }", [("complex", "z"), ("complex", "y"), ("number", "s")]),
+""", "R = { pick = [3] }\\nX = { pick = [4] }", ['kind = "complex", of = "z"', 'kind = "complex", of = "y"', 'kind = "number", of = "s", sigfigs = 4']),
 }  # fmt: skip
 
 
 @pytest.fixture(scope="module")
 def bank(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("carried")
-    (folder / "templates").mkdir()
-    (folder / "solvers").mkdir()
-    (folder / "templates" / "bank.toml").write_text(BANK)
-    for name, written in SOLVERS.items():
-        write_question(folder, name, *written)
-    return quizgen.Bank(folder, trusted=True)
-
-
-def write_question(folder: Path, name: str, model: str, draws: str, asked: list[tuple[str, str]]):
-    head = "from sympy import *\n\nfrom quizgen.maths.model import Model, Step\n\n"
-    (folder / "solvers" / f"{name}.py").write_text(head + model)
-    home = folder / "templates" / "any" / name
-    home.mkdir(parents=True)
-    rule = {"number": ", sigfigs = 4"}
-    parts = [f'[[part]]\nanswer = {{ kind = "{kind}", of = "{of}"{rule.get(kind, "")} }}' for kind, of in asked]
-    draws = draws.replace("\\n", "\n")
-    (home / "template.toml").write_text(
-        f'topic = "any"\ntier = "B"\nsolver = "{name}"\nlevels = []\n[draw]\n{draws}\n' + "\n".join(parts)
-    )
-    stem = "Here " + ", ".join(f"{line[0]} is {{{{ {line[0]} }}}}" for line in draws.splitlines()) + "."
-    stem += "".join(f"\n\n## {label}\nFind it." for label, _ in zip("abcdef", asked, strict=False))
-    steps = "\n".join(f"- {of}: By the rules." for _, of in asked)
-    (home / "en.md").write_text(PROSE.format(title=name, stem=stem, steps=steps, traps=""))
+    return quizgen.Bank(write_questions(tmp_path_factory.mktemp("carried"), SOLVERS), trusted=True)
 
 
 CARRIED = [
