@@ -316,8 +316,8 @@ def _find_conclusion(text: str) -> Iterator[str]:
         concluded = shape.fullmatch(text)
         if concluded and not says_otherwise(concluded["rest"]):
             yield add_mixed_units(concluded["rest"].rpartition("=")[2].strip() or text)
-    given = find_given_value(text)
-    if given and not says_otherwise(text):
+    said, given = find_given_value(text)
+    if given and not is_denied(said):
         yield given
 
 

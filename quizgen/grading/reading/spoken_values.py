@@ -19,8 +19,8 @@ from quizgen.grading.reading.units import read_unit
 from quizgen.locale import list_languages, load_words
 from quizgen.maths.notation import FormulaReadError
 
-_END = r"(?![\w\u0980-\u09ff])"
-_VALUE = r"[-+−]?[.,]?\d[\d.,/' ]*(?:(?<=\d)|(?<=\d[.,]))(?: ?[^\W\d][^\d\s,;:()]{0,14}|%)?"
+_START, _END = r"(?<![\w\u0980-\u09ff])", r"(?![\w\u0980-\u09ff])"
+_VALUE = r"[-+−]?[.,]?\d(?:[\d.,/' ]*\d)?(?: ?[^\W\d][^\d\s,;:()]{0,14}| ?[%‰])?"
 _PLAIN = r"[-+−]?\d+(?:[.,]\d+)?"
 _MOST_ERROR = 0.01
 """Relative error that a value may be said to have, and still be one value."""
@@ -53,19 +53,18 @@ def _compile(shape: str) -> re.Pattern[str]:
 def write_spoken_value(text: str) -> str:
     """Return a number in words that mean a power, a share or a half in signs; else as it is."""
     text = _POINTLESS.sub("", _write_powers(text))
-    if not text.endswith("/"):
-        text = _compile(
-            rf"(?<![\w./⁄])(?:<shares one> )?(\d+)(?: ?-?<shares endings>)(?![^\W\d_])"
-        ).sub(r"1/\1", text)
-    halves = _compile(rf"(?<=\d)( <mixed half>){_END}")
-    text = re.sub(r"(\d+)\.5\.5", r"\1.5", halves.sub(".5", text))
+    text = _IN_BASE.sub(lambda m: str(int(m[0], 0)), text)
+    share = r"(?<![\w./⁄])(?:<shares one> )?(\d+)(?: ?-?<shares endings>)(?![^\W\d_])"
+    text = _compile(share).sub(r"1/\1", text)
+    text = _compile(rf"(?<![\d.,])(\d+) <mixed half>{_END}").sub(r"\1.5", text)
     text = _compile(r"(?<![\d.,])(\d+) <mixed joint> (?=\d+ ?/ ?\d)").sub(r"\1 ", text)
     for row in _list_phrases("mixed", "words"):
         value, _, words = row.partition(" ")
-        text = re.sub(rf"(?<![\w\u0980-\u09ff]){re.escape(words)}{_END}", value, text, flags=re.I)
+        text = re.sub(rf"{_START}{re.escape(words)}{_END}", value, text, flags=re.IGNORECASE)
     return _write_share(text)
 
 
+_IN_BASE = re.compile(r"(?<![\w.])0(?:[xX][0-9a-fA-F]{1,12}|[bB][01]{1,32})(?!\w)")
 _POINTLESS = re.compile(r"(?<=\S) *(?::-?\)+|;-?\)|:-?D|:P|\^\^|\\)$")
 """Smileys, and a stroke that a keyboard left behind."""
 
@@ -127,7 +126,9 @@ _PARTED_UNIT = re.compile(r"(.*\d)(?: ?[,;_] ?| ?[-–] ?)([^\W\d_][^\d\s]*|[%°
 
 def _is_small_error(match: re.Match[str]) -> bool:
     """Return whether an error is small beside its value, and in the same unit."""
-    value, error = (abs(float(match[part].replace(",", ".").replace("−", "-"))) for part in ("value", "error"))
+    value, error = (
+        abs(float(match[part].replace(",", ".").replace("−", "-"))) for part in ("value", "error")
+    )
     units = {match["unit"] or match["last"], match["last"] or match["unit"]}
     return error <= _MOST_ERROR * value and len(units) == 1
 
@@ -162,29 +163,54 @@ def _form(value: str) -> tuple[bool, str]:
     return "/" in value, value.lstrip("-+−.,/' 0123456789").strip()
 
 
-def find_given_value(text: str) -> str:
-    """Return the value that a text leads to: ``4 bits give 16 levels``; empty if it is none."""
-    match = _compile(rf".*\d.*(?<![\w\u0980-\u09ff])<giving words>:? ({_VALUE}(?: [^\W\d]+)?)").fullmatch(text)
-    if match:
-        return match[1]
-    led = _LED.fullmatch(text)
-    return led[1] if led else ""
+def find_given_value(text: str) -> tuple[str, str]:
+    """Return what a text says and the value it leads to: ``4 bits give 16``; empty if none."""
+    for shape in _LEADING:
+        match = _compile(shape).fullmatch(text)
+        if match and not _compile(rf"{_START}<giving refused>{_END}").search(match[1]):
+            return match[1], match[2]
+    return "", ""
 
 
-_LED = re.compile(rf"[^=:]*[^\W\d][^=:]*\d[^=:]*: ({_VALUE})|{_PLAIN} ?(?:→|->|=>|⇒) ?({_VALUE})")
-
-
-def list_power_readings(typed: str) -> tuple[str, str] | None:
-    """Return both readings of ``1.085*10-2`` and ``1.085x103``, whose exponent was not raised."""
-    match = _LOST.fullmatch(typed.strip())
-    if match is None:
-        return None
-    head, sign, digits, unit = match.groups()
-    plain = f"{head}·10 − {digits}" if sign else f"{head}·10{digits}"
-    power = f"{head}·10^{'-' if sign else ''}{digits}"
-    return f"{plain} {unit}".strip(), f"{power} {unit}".strip()
-
-
-_LOST = re.compile(
-    r"([-+−]?\d+(?:[.,]\d+)?) ?[*xX×·] ?10 ?([-−–]?) ?(\d{1,2})( ?[^\W\d_][^\d]*|)"
+_LEADING = (
+    rf"(.*\d.*){_START}<giving words>:? ({_VALUE}(?: (?:[^\W\d]|[\u0980-\u09ff])+)?)",
+    rf"([^=:]*[^\W\d][^=:]*\d[^=:]*): ({_VALUE})",
+    rf"({_PLAIN}) ?(?:→|->|=>|⇒) ?({_VALUE})",
+    rf"({_PLAIN} ?[<>] ?{_PLAIN}) ?(?:,|→|->|=>|⇒) ?(?:[\d+−*/ -]+= ?)?({_VALUE})",
 )
+
+
+def read_share(typed: str) -> str:
+    """Return ``1/5`` for ``1 in 5`` and ``1 out of 5``; empty if it is none."""
+    match = _compile(r"(\d+) <shares among> (\d+)").fullmatch(typed.strip(" ."))
+    return f"{match[1]}/{match[2]}" if match and int(match[1]) < int(match[2]) else ""
+
+
+def list_other_readings(typed: str) -> tuple[str, ...]:
+    """Return what a number may mean that is read as a product or a difference.
+
+    ``1.085*10-2`` and ``1.085x103`` may have an exponent that was not raised; the number in
+    brackets of ``16 (17)`` may be a factor or another answer, and a range there a remark.
+    """
+    text = typed.strip(" .")
+    lost, beside = _LOST.fullmatch(text), _BESIDE.fullmatch(text)
+    if lost:
+        head, sign, digits, unit = lost.groups()
+        plain = f"({head}·10) − {digits}" if sign else f"({head})·10{digits}"
+        power = f"{head}·10^{'-' if sign else ''}{digits}"
+        return f"{plain}{unit}", f"{power}{unit}"
+    if not beside:
+        return ()
+    value, low, high = beside["value"], beside["low"], beside["high"]
+    if not high:
+        return value, f"({value})·{low}"
+    first, *ends = (float(part.replace(",", ".")) for part in (value, low, high))
+    inside = min(ends) <= first <= max(ends)  # then it says how sure the value is
+    return (value, f"({value})·({low} - {high})") if inside else (value,)
+
+
+_BESIDE = re.compile(
+    r"(?P<value>[-+−]?\d+(?:[.,]\d+)?) \((?P<low>\d+(?:[.,]\d+)?)"
+    r"(?: ?(?:[-–]|\.{2,3}) ?(?P<high>\d+(?:[.,]\d+)?))?\)"
+)
+_LOST = re.compile(r"([-+−]?\d+(?:[.,]\d+)?) ?[*xX×·] ?10 ?([-−–]?) ?(\d{1,2})( ?[^\W\d_][^\d]*|)")
