@@ -30,7 +30,7 @@ from quizgen.grading.reading.answer_reader import (
     write_in_signs,
 )
 from quizgen.grading.reading.factor_words import drop_bound
-from quizgen.grading.reading.labels import AskedNames
+from quizgen.grading.reading.labels import AskedNames, put_names_first
 from quizgen.grading.reading.normalise import LONGEST_PROSE
 from quizgen.grading.reading.spoken_values import list_other_readings
 from quizgen.grading.spec import AnySpec, ScalarSpec, WordSpec
@@ -161,7 +161,8 @@ def _offer_readings(readings: tuple[str, ...]) -> Verdict:
 def _prepare(typed: str, form: AnswerForm, names: AskedNames) -> str:
     """Return the text that is judged first: without what would make a right answer a wrong one."""
     if form == "values":
-        return prove_groups(drop_counting(name_by_index(drop_transposed(typed), names)))
+        named = name_by_index(put_names_first(drop_transposed(typed), names), names)
+        return prove_groups(drop_counting(named))
     if form == "formula":
         return write_in_signs(typed)
     if form == "word":

@@ -33,6 +33,7 @@ from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.reading.spoken_values import (
     find_given_value,
     list_meant_values,
+    write_spoken_formula,
     write_spoken_value,
 )
 from quizgen.grading.reading.units import read_unit
@@ -259,7 +260,7 @@ _INDEXED = re.compile(r"(^|[,;/\n] *)(\d{1,4}) ?[:=] ?(?=[-+−.]?\d)")
 
 def _list_barer_formulas(text: str) -> Iterator[str]:
     """Yield a formula without words behind it, and the last side of several."""
-    text = _WORDS_BEHIND.sub("", text)
+    text = write_spoken_formula(_WORDS_BEHIND.sub("", text))
     yield text
     if "=" in text:
         yield text.rpartition("=")[2]

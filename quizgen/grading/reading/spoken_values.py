@@ -44,7 +44,7 @@ def _alternatives(section: str, name: str) -> str:
 
 
 @cache
-def _compile(shape: str) -> re.Pattern[str]:
+def compile_spoken(shape: str) -> re.Pattern[str]:
     """Return a pattern in which ``<powers to>`` stands for the words of a list."""
     filled = re.sub(r"<(\w+) (\w+)>", lambda m: f"(?:{_alternatives(m[1], m[2])})", shape)
     return re.compile(filled, re.IGNORECASE)
@@ -55,9 +55,9 @@ def write_spoken_value(text: str) -> str:
     text = _POINTLESS.sub("", _write_powers(text))
     text = _IN_BASE.sub(lambda m: str(int(m[0], 0)), text)
     share = r"(?<![\w./⁄])(?:<shares one> )?(\d+)(?: ?-?<shares endings>)(?![^\W\d_])"
-    text = _compile(share).sub(r"1/\1", text)
-    text = _compile(rf"(?<![\d.,])(\d+) <mixed half>{_END}").sub(r"\1.5", text)
-    text = _compile(r"(?<![\d.,])(\d+) <mixed joint> (?=\d+ ?/ ?\d)").sub(r"\1 ", text)
+    text = compile_spoken(share).sub(r"1/\1", text)
+    text = compile_spoken(rf"(?<![\d.,])(\d+) <mixed half>{_END}").sub(r"\1.5", text)
+    text = compile_spoken(r"(?<![\d.,])(\d+) <mixed joint> (?=\d+ ?/ ?\d)").sub(r"\1 ", text)
     for row in _list_phrases("mixed", "words"):
         value, _, words = row.partition(" ")
         text = re.sub(rf"{_START}{re.escape(words)}{_END}", value, text, flags=re.IGNORECASE)
@@ -71,9 +71,9 @@ _POINTLESS = re.compile(r"(?<=\S) *(?::-?\)+|;-?\)|:-?D|:P|\^\^|\\)$")
 
 def _write_powers(text: str) -> str:
     """Return ``2 hoch 4`` as ``2^(4)``, ``3 mal 10 hoch minus 2`` as ``3*10^(-2)``."""
-    power = _compile(rf"(?<=[\d)]) <powers to> (?:(-|−)|(<powers minus>) )?(\d+){_END}")
+    power = compile_spoken(rf"(?<=[\d)]) <powers to> (?:(-|−)|(<powers minus>) )?(\d+){_END}")
     text = power.sub(lambda m: f"^({'-' if m[1] or m[2] else ''}{m[3]})", text)
-    return _compile(r"(?<=\d) <powers times> (?=10 ?\^)").sub("*", text)
+    return compile_spoken(r"(?<=\d) <powers times> (?=10 ?\^)").sub("*", text)
 
 
 def _write_share(text: str) -> str:
@@ -95,6 +95,21 @@ def _is_unit(text: str) -> bool:
     except FormulaError:
         return False
     return True
+
+
+def write_spoken_formula(text: str) -> str:
+    """Return ``f times X over Z`` and ``root N`` in signs, and ``SQRT`` in small letters."""
+    text = compile_spoken(r" <formulas times> ").sub("*", text)
+    text = compile_spoken(r" <formulas over> ").sub("/", text)
+    text = compile_spoken(rf" <powers to> (?:(<powers minus>) )?([\w./]+){_END}").sub(
+        lambda m: f"^({'-' if m[1] else ''}{m[2]})", text
+    )
+    text = compile_spoken(rf"{_START}<formulas root> ([^\W_]+){_END}").sub(r"sqrt(\1)", text)
+    text = re.sub(r"(?<![^\W_])sqrt ?\{([^{}]+)\}", r"sqrt(\1)", text)
+    return _CAPITALS.sub(lambda m: m[0].lower(), text)
+
+
+_CAPITALS = re.compile(r"(?<![^\W_])(?:SQRT|SIN|COS|TAN|EXP|LN|LOG|ABS)(?=\()")
 
 
 def list_meant_values(text: str) -> Iterator[str]:
@@ -147,7 +162,9 @@ def _list_contrasts() -> tuple[re.Pattern[str], ...]:
 
 def _read_same_twice(text: str) -> Iterator[str]:
     """Yield ``1/125 s = 8 ms`` for ``1/125 s or 8 ms``, if both are one value said differently."""
-    match = _compile(rf"({_VALUE})[, ]*\(?(?<=[ ,(])<same between>,? ({_VALUE})\)?").fullmatch(text)
+    match = compile_spoken(
+        rf"({_VALUE})[, ]*\(?(?<=[ ,(])<same between>,? ({_VALUE})\)?"
+    ).fullmatch(text)
     if match is None or _form(match[1]) == _form(match[2]):
         return
     chain = f"{match[1].strip()} = {match[2].strip()}"
@@ -163,11 +180,20 @@ def _form(value: str) -> tuple[bool, str]:
     return "/" in value, value.lstrip("-+−.,/' 0123456789").strip()
 
 
+def separate_elements(typed: str) -> str:
+    """Return ``1; 2`` for ``x = 1 or x = 2`` and ``x ∈ {1, 2}``: a set has all its elements."""
+    text = _ELEMENT_OF.sub("", typed.strip())
+    return compile_spoken(r",? <intervals or> (?=[^\W\d_]\w{0,3} ?=|[-+−√.]?\d)").sub("; ", text)
+
+
+_ELEMENT_OF = re.compile(r"^[^\W\d_] ?(?:(?:∈|\\in|in) ?(?=[{\[(])|(?:is|ist) (?=[-+−]?\d))")
+
+
 def find_given_value(text: str) -> tuple[str, str]:
     """Return what a text says and the value it leads to: ``4 bits give 16``; empty if none."""
     for shape in _LEADING:
-        match = _compile(shape).fullmatch(text)
-        if match and not _compile(rf"{_START}<giving refused>{_END}").search(match[1]):
+        match = compile_spoken(shape).fullmatch(text)
+        if match and not compile_spoken(rf"{_START}<giving refused>{_END}").search(match[1]):
             return match[1], match[2]
     return "", ""
 
@@ -182,7 +208,7 @@ _LEADING = (
 
 def read_share(typed: str) -> str:
     """Return ``1/5`` for ``1 in 5`` and ``1 out of 5``; empty if it is none."""
-    match = _compile(r"(\d+) <shares among> (\d+)").fullmatch(typed.strip(" ."))
+    match = compile_spoken(r"(\d+) <shares among> (\d+)").fullmatch(typed.strip(" ."))
     return f"{match[1]}/{match[2]}" if match and int(match[1]) < int(match[2]) else ""
 
 
