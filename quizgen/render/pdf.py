@@ -53,7 +53,7 @@ MOST_UNDER_A_COVER = 8
 
 POINTS_A_PAGE = 10
 """Points for which a long paper has a page at most, beside that of its cover."""
-TIGHTER = ("0.8", "0.6", "0.4")
+TIGHTER = ("0.8", "0.6", "0.4", "0.25")
 """Shares of the room to work in that are tried where a paper has more pages."""
 _PAGE = re.compile(rb"/Type ?/Page\b")
 
