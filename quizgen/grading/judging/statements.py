@@ -362,6 +362,17 @@ class Example:
         """Number of things that it says; the more, the better it fits what it is found in."""
         return sum(map(len, self.steps)) + self.denied
 
+    @property
+    def scales(self) -> frozenset[str]:
+        """Names of the scales that it has a word of."""
+        items = itertools.chain.from_iterable(self.steps)
+        return frozenset(name for item in items for name, _ in item.scales)
+
+    @property
+    def is_bare(self) -> bool:
+        """Whether it says how much, or how bright, and not what; of an order of two, both do."""
+        return len(self.steps) == 1 and all(item.is_general for item in self.steps[0])
+
 
 class Subject:
     """What a subject has words for: groups of words, or rows of words, that mean the same.
