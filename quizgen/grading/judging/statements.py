@@ -11,6 +11,7 @@ Nothing is learnt and nothing is guessed: what is neither said nor denied stays 
 
 from __future__ import annotations
 
+import itertools
 import re
 import unicodedata
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
@@ -127,6 +128,11 @@ class _Vocabulary:
     conditions: frozenset[str]
     harmless: frozenset[tuple[str, ...]]
     frames: tuple[tuple[str, ...], ...]
+    that: frozenset[str]
+    pointers: frozenset[str]
+    speech: frozenset[str]
+    verdicts: frozenset[str]
+    remarks: frozenset[str]
     corrections: frozenset[tuple[str, ...]]
     than: frozenset[str]
     than_behind: frozenset[str]
@@ -137,6 +143,10 @@ class _Vocabulary:
     stems: tuple[tuple[str, Scale], ...]
     phrases: tuple[tuple[tuple[str, ...], Scale], ...]
     equal: tuple[frozenset[str], ...]
+
+
+_OF_REMARKS = ("that", "speech", "verdicts", "remarks", "denials", "fillers")
+"""Lists of words of which a remark on another statement is made, and nothing else."""
 
 
 @cache
@@ -169,6 +179,11 @@ def _vocabulary() -> _Vocabulary:
         words("conditions"),
         frozenset(rows("harmless")),
         tuple(rows("frames")),
+        words("that"),
+        words("pointers"),
+        words("speech"),
+        words("verdicts"),
+        frozenset().union(*map(words, _OF_REMARKS)),
         frozenset(rows("corrections")),
         words("than"),
         words("than_behind"),
@@ -346,6 +361,17 @@ class Example:
     def size(self) -> int:
         """Number of things that it says; the more, the better it fits what it is found in."""
         return sum(map(len, self.steps)) + self.denied
+
+    @property
+    def scales(self) -> frozenset[str]:
+        """Names of the scales that it has a word of."""
+        items = itertools.chain.from_iterable(self.steps)
+        return frozenset(name for item in items for name, _ in item.scales)
+
+    @property
+    def is_bare(self) -> bool:
+        """Whether it says how much, or how bright, and not what; of an order of two, both do."""
+        return len(self.steps) == 1 and all(item.is_general for item in self.steps[0])
 
 
 class Subject:
@@ -527,6 +553,7 @@ class _Clause:
     ahead: list[int] = field(default_factory=list)
     compared: set[int] = field(default_factory=set)
     corrects: bool = False
+    doubted: bool = False
 
 
 @dataclass(frozen=True)
@@ -615,6 +642,7 @@ class Statement:
         for clause in found:
             self._read_denials(clause)
         self._spread_frames(found)
+        self._spread_remarks(found)
         return found
 
     def _ends_sentence(self, place: int) -> bool:
@@ -711,6 +739,75 @@ class Statement:
                 clauses[index - 1].denials.append(mark)
                 clauses[index - 1].whole += 1
 
+    def _spread_remarks(self, clauses: list[_Clause]) -> None:
+        """Doubt what a remark denies: *nobody would say that ...*, *..., which is wrong*.
+
+        A remark speaks of what is said and of nothing else. What it denies stands behind it, or
+        before it in its sentence; one that is a sentence by itself denies the sentence before.
+        """
+        remarks = [self._is_remark(clause) for clause in clauses]
+        for index, clause in enumerate(clauses):
+            begins = not index or clauses[index - 1].sentence != clause.sentence
+            behind = self._count_remark(clauses, index) if begins else 0
+            if behind:
+                for other in clauses[index + behind - 1 :]:
+                    other.doubted |= other.sentence == clause.sentence
+            elif remarks[index]:
+                content = [
+                    (at, other.sentence)
+                    for at, other in enumerate(clauses)
+                    if not remarks[at] and at != index
+                ]
+                mine = [at for at, sentence in content if sentence == clause.sentence]
+                of = clause.sentence
+                if not mine or (index < mine[0] and self._points_back(clause)):
+                    of -= 1
+                clause.doubted = True
+                for other in clauses[:index]:
+                    other.doubted |= other.sentence == of
+
+    def _count_remark(self, clauses: Sequence[_Clause], first: int) -> int:
+        """Return how many clauses a remark at the head of a sentence reaches into; 0 without one.
+
+        It denies once, up to its last word such as *that* or *think*. *The mistake is that ...*
+        denies nothing.
+        """
+        known, head, size, reach = _vocabulary(), [], 0, 0
+        for count, clause in enumerate(clauses[first:], 1):
+            words = [self.tokens[at].text for at in clause.places]
+            if clause.sentence != clauses[first].sentence or (
+                count > 1 and words[0] not in known.that
+            ):
+                break
+            inside = list(itertools.takewhile(known.remarks.__contains__, words))
+            for word in inside:
+                head.append(word)
+                if word in known.that | known.speech:
+                    size, reach = len(head), count
+            if len(inside) < len(words):
+                break
+        head = head[:size]
+        if not head or not self._denies(head):
+            return 0
+        states = len(head) > 1 and head[-1] in known.that and head[-2] in known.helpers
+        return 0 if states and head[0] not in known.verdicts else reach
+
+    def _is_remark(self, clause: _Clause) -> bool:
+        """Return whether a clause only says that what was said is not so."""
+        words = [self.tokens[at].text for at in clause.places]
+        return clause.corrects or (
+            all(word in _vocabulary().remarks for word in words) and self._denies(words)
+        )
+
+    def _points_back(self, clause: _Clause) -> bool:
+        """Return whether a remark says *this* or *that* of the sentence before."""
+        return self.tokens[clause.places[0]].text in _vocabulary().that | _vocabulary().pointers
+
+    def _denies(self, words: Sequence[str]) -> bool:
+        """Return whether words deny an odd number of times: *no doubt* denies nothing."""
+        known = _vocabulary()
+        return sum(word in known.denials | known.verdicts for word in words) % 2 == 1
+
     def know(self, examples: Iterable[Example]) -> None:
         """Take the words of examples for words of their own, none of which misspells another."""
         rows = (row for one in examples for step in one.steps for item in step for row in item.rows)
@@ -760,7 +857,8 @@ class Statement:
             return replace(evidence, meaning="open") if elsewhere else evidence
         clauses = range(evidence.first, evidence.last + 1)
         unsure = (
-            self._is_said_of_another(evidence, mine, others)
+            any(self.clauses[at].doubted for at in clauses)
+            or self._is_said_of_another(evidence, mine, others)
             or any(self._has_doubt(self.clauses[at], evidence.places) for at in clauses)
             or self._has_other_end(evidence, example)
         )
@@ -782,7 +880,7 @@ class Statement:
         where an idea without amounts is not to have one, either (*S gets less, only H stays*).
         """
         apart = evidence.first < evidence.last
-        names = {"sameness", "amount"} if apart else {"sameness"}
+        names = {"sameness", "totality", *(["amount"] if apart else [])}
         wanted = {
             scale
             for step in example.steps
