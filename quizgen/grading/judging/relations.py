@@ -127,39 +127,53 @@ class World:
     def points(self) -> tuple[dict[str, Any], ...]:
         """The points: the value of every name, where all of them have one."""
         if self._points is None:  # two threads may both compute them, and find the same
-            self._points = tuple(islice(self._iter_points(), 2 * POINTS))
+            domains = tuple((name, _freeze(of)) for name, of in self.domains.items())
+            self._points = _list_points(domains, tuple(self.definitions.items()), self.where)
         return self._points
 
-    def _iter_points(self) -> Iterator[dict[str, Any]]:
-        """Yield points of the free names with the values of the others, where they may lie."""
-        free = {name: of for name, of in self.domains.items() if name not in self.definitions}
-        formulas = [(name, compile_exact(self.definitions[name])) for name in self._in_order()]
-        conditions = [compile_exact(one) for one in self.where]
-        for point in sample_points(free):
-            env: dict[str, Any] = dict(point)
-            with working_precision(BITS):
-                for name, formula in formulas:
-                    env[name] = formula(env)
-                fits = all(_lies_in(env[name], self.domains[name]) for name, _ in formulas)
-                fits = fits and all(condition(env) is True for condition in conditions)
-            if fits:
-                yield env
 
-    def _in_order(self) -> list[str]:
-        """Return the defined names, each behind those that its formula has."""
-        found: dict[str, None] = {}
+@lru_cache(maxsize=256)
+def _list_points(
+    domains: tuple[tuple[str, Any], ...],
+    definitions: tuple[tuple[str, Expr], ...],
+    where: tuple[Expr, ...],
+) -> tuple[dict[str, Any], ...]:
+    """Return the points of a world: what is right leads every learner to the same ones."""
+    with working_precision(BITS):
+        return tuple(islice(_iter_points(dict(domains), dict(definitions), where), 2 * POINTS))
 
-        def visit(name: str) -> None:
-            """Add a name behind what it depends on."""
-            for other in sorted(names_in(self.definitions[name]) & self.definitions.keys()):
-                if other not in found:
-                    visit(other)
-            found[name] = None
 
-        for name in self.definitions:
-            if name not in found:
-                visit(name)
-        return list(found)
+def _iter_points(
+    domains: Mapping[str, Any], definitions: Mapping[str, Expr], where: Sequence[Expr]
+) -> Iterator[dict[str, Any]]:
+    """Yield points of the free names with the values of the others, where they may lie."""
+    free = {name: of for name, of in domains.items() if name not in definitions}
+    formulas = [(name, compile_exact(definitions[name])) for name in _in_order(definitions)]
+    conditions = [compile_exact(one) for one in where]
+    for point in sample_points(free):
+        env: dict[str, Any] = dict(point)
+        for name, formula in formulas:
+            env[name] = formula(env)
+        fits = all(_lies_in(env[name], domains[name]) for name, _ in formulas)
+        if fits and all(condition(env) is True for condition in conditions):
+            yield env
+
+
+def _in_order(definitions: Mapping[str, Expr]) -> list[str]:
+    """Return the defined names, each behind those that its formula has."""
+    found: dict[str, None] = {}
+
+    def visit(name: str) -> None:
+        """Add a name behind what it depends on."""
+        for other in sorted(names_in(definitions[name]) & definitions.keys()):
+            if other not in found:
+                visit(other)
+        found[name] = None
+
+    for name in definitions:
+        if name not in found:
+            visit(name)
+    return list(found)
 
 
 def _is_circular(name: str, definitions: Mapping[str, Expr]) -> bool:
