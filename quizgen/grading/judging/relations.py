@@ -379,29 +379,41 @@ def implies(
     """
     if first.op != "eq":
         return first == second or _is_multiple(first, second, domains)
-    solved = list(_iter_solved_worlds(first, second, domains, order))
+    solved = _list_solved_worlds(first, second, domains, order)
     return bool(solved) and all(world.holds(second) is True for world in solved)
 
 
-def _iter_solved_worlds(
+def _list_solved_worlds(
     first: Relation, second: Relation, domains: Mapping[str, Domain], order: Sequence[str]
-) -> Iterator[World]:
-    """Yield worlds in which an equation holds, solved for the first name for which that works.
+) -> tuple[World, ...]:
+    """Return worlds in which an equation holds, solved for the first name for which that works.
 
     There is one for each solution that its domain allows.
     """
-    shared = first.names & second.names
-    used = {name: of for name, of in domains.items() if name in first.names | second.names}
-    for name in sorted(shared, key=lambda one: (one not in order, one)):
+    shared = sorted(first.names & second.names, key=lambda one: (one not in order, one))
+    used = [(name, _freeze(of)) for name, of in domains.items()
+            if name in first.names | second.names]  # fmt: skip
+    return _solve_for_one_of(first, tuple(shared), tuple(used))
+
+
+@lru_cache(maxsize=512)
+def _solve_for_one_of(
+    relation: Relation, names: tuple[str, ...], domains: tuple[tuple[str, Any], ...]
+) -> tuple[World, ...]:
+    """Return the worlds of an equation that is solved for the first of some names that works.
+
+    One line is compared with all known mistakes, and these with the lines of all learners.
+    """
+    for name in names:
         worlds = [
-            World(used, {name: formula})
-            for formula in solve_for(first, name)
+            World(dict(domains), {name: formula})
+            for formula in solve_for(relation, name)
             if name not in names_in(formula)
         ]
-        found = [world for world in worlds if world.holds(first) is True]
+        found = tuple(world for world in worlds if world.holds(relation) is True)
         if found:
-            yield from found
-            return
+            return found
+    return ()
 
 
 def _is_multiple(first: Relation, second: Relation, domains: Mapping[str, Domain]) -> bool:
