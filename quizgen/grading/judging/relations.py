@@ -38,6 +38,8 @@ ROUNDED = fmpq(1, 50)
 """Share of a value by which the decimal that stands for it may be off, besides its last place."""
 RECKONED = fmpq(1, 500)
 """Share by which sides may differ that were worked out from rounded decimals."""
+MOST_HELD = 500
+"""Relations for which a world remembers whether they hold."""
 SHARP_PLACES = 3
 """Decimals from which on a number is taken for a rounded one, not for a given one."""
 
@@ -93,6 +95,7 @@ class World:
         """Take what is known; points are computed when they are first needed."""
         self.domains, self.definitions, self.where = dict(domains), dict(definitions), tuple(where)
         self._points: tuple[dict[str, Any], ...] | None = None
+        self._held: dict[tuple[Relation, bool], bool | None] = {}
 
     def define(self, name: str, formula: Expr, domain: Domain = "real") -> World | None:
         """Return the world in which a name is a formula; None if the formula depends on it."""
@@ -104,8 +107,18 @@ class World:
     def holds(self, relation: Relation, *, rounded: bool = True) -> bool | None:
         """Return whether a relation holds at all points; None if that cannot be told.
 
-        Without ``rounded`` a decimal is exactly what it says.
+        Without ``rounded`` a decimal is exactly what it says. What was said of the last lines is
+        remembered: many learners write the same ones.
         """
+        asked = relation, rounded
+        if asked not in self._held:
+            if len(self._held) >= MOST_HELD:
+                self._held.clear()
+            self._held[asked] = self._find_whether_holds(relation, rounded=rounded)
+        return self._held[asked]
+
+    def _find_whether_holds(self, relation: Relation, *, rounded: bool) -> bool | None:
+        """Return whether a relation holds, compared at each point."""
         if not relation.names <= self.domains.keys():
             return None
         left, right = compile_exact(relation.left), compile_exact(relation.right)
@@ -451,6 +464,16 @@ def find_lost_solution(
     """
     if before.op != "eq" or after.op != "eq":
         return ""
+    known = tuple((name, _freeze(of)) for name, of in domains.items())
+    return _find_lost_in_step(before, after, known, tuple(where))
+
+
+@lru_cache(maxsize=1024)
+def _find_lost_in_step(
+    before: Relation, after: Relation, known: tuple[tuple[str, Any], ...], where: tuple[Expr, ...]
+) -> str:
+    """Return what a step overlooks, for many learners who take the same one."""
+    domains = dict(known)
     return _find_zero_divisor(before, after, domains, where) or _find_lost_root(
         before, after, domains
     )
