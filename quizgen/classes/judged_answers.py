@@ -54,6 +54,7 @@ class JudgedAnswers:
         self.folder, self._secret = folder, secret
         self._before = self._read()
         self._now: dict[str, bytes] = {}
+        self._adds = False
 
     def _read(self) -> dict[str, _Line]:
         """Return the lines of the run before by name; none where there are none to be read."""
@@ -85,10 +86,15 @@ class JudgedAnswers:
 
     def keep(self, name: str, found: object) -> None:
         """Note something under a name for the next run."""
-        self._now[name] = msgspec.json.encode(found, enc_hook=str)
+        self._now[name], self._adds = msgspec.json.encode(found, enc_hook=str), True
 
     def write(self) -> None:
-        """Write what this run found or took; what neither named is gone."""
+        """Write what this run found or took; what neither named is gone.
+
+        Where nothing was found anew the file stays: it has what people decided meanwhile, too.
+        """
+        if not self._adds:
+            return
         lines = (
             msgspec.json.encode(_Line(name, self._seal(name, data), msgspec.Raw(data)))
             for name, data in self._now.items()
