@@ -322,6 +322,11 @@ class _Item:
     scales: tuple[Scale, ...] = ()
     formula: bool = False
 
+    @cached_property
+    def begins(self) -> frozenset[str]:
+        """Return the words that its rows begin with."""
+        return frozenset(row[0] for row in self.rows)
+
     @property
     def is_general(self) -> bool:
         """Whether it says nothing of a subject."""
@@ -393,6 +398,8 @@ class Subject:
                 for stem in _stems(row[0]):
                     self._begins.setdefault(stem, []).append((index, row))
         self._read: dict[tuple[str, Meaning], Example] = {}
+        self._items: dict[_Item, _Item] = {}
+        self._words: dict[tuple[tuple[str, Meaning], ...], ExampleWords] = {}
 
     def find(
         self, tokens: Sequence[WordToken], place: int
@@ -421,6 +428,65 @@ class Subject:
         if known is None:
             known = self._read[text, meaning] = _read_example(text, meaning, self)
         return known
+
+    def share_item(self, item: _Item) -> _Item:
+        """Return the one item that stands for all that are equal to it."""
+        return self._items.setdefault(item, item)
+
+    def collect_words(
+        self, examples: Sequence[Example], mistakes: Sequence[Example]
+    ) -> ExampleWords:
+        """Return the words of examples of a part and of its mistakes, the same for the same ones.
+
+        Parameters
+        ----------
+        examples, mistakes : sequence of Example
+        """
+        asked = tuple((one.text, one.meaning) for one in (*examples, *mistakes))
+        if asked not in self._words:
+            self._words[asked] = ExampleWords(examples, mistakes)
+        return self._words[asked]
+
+
+class ExampleWords:
+    """The words of all examples of a part, and which of them each typed word may be.
+
+    All answers to a part are searched for the same words, and most are none of them.
+
+    Parameters
+    ----------
+    examples : sequence of Example
+        No word of them is taken for another one misspelt.
+    mistakes : sequence of Example
+    """
+
+    def __init__(self, examples: Sequence[Example] = (), mistakes: Sequence[Example] = ()) -> None:
+        self.own = frozenset(word for row in _iter_rows(examples) for word in row)
+        self._begins = sorted({row[0] for row in _iter_rows((*examples, *mistakes))})
+        self._found: dict[str, tuple[str, ...]] = {}
+
+    def find_begun(self, typed: str) -> tuple[str, ...]:
+        """Return the words that rows begin with and of which a typed word is a form."""
+        found = self._found.get(typed)
+        if found is None:
+            if len(self._found) >= MOST_TYPED:
+                self._found.clear()
+            slips = typed not in self.own
+            found = tuple(word for word in self._begins if is_form_of(typed, word, slips=slips))
+            self._found[typed] = found
+        return found
+
+
+MOST_TYPED = 4096
+"""Typed words that are remembered for a part."""
+
+
+def _iter_rows(examples: Iterable[Example]) -> Iterator[tuple[str, ...]]:
+    """Yield the rows of words of all items of examples."""
+    for one in examples:
+        for step in one.steps:
+            for item in step:
+                yield from item.rows
 
 
 @lru_cache(maxsize=512)
@@ -461,7 +527,7 @@ def _read_example(text: str, meaning: Meaning, subject: Subject) -> Example:
                 denied = not denied
             if item is None and words[0] in known.than | known.than_behind:
                 compared = max(len(steps[-1]), 1)
-            steps[-1] += [item] if item else []
+            steps[-1] += [subject.share_item(item)] if item else []
             place += length
     return Example(text, meaning, tuple(map(tuple, filter(None, steps))), denied, compared)
 
@@ -601,13 +667,13 @@ class Statement:
     """
 
     def __init__(self, typed: str, subject: Subject | None = None) -> None:
-        self.typed, self._known = typed, frozenset[str]()
+        self.typed, self._words = typed, ExampleWords()
         self.tokens = split_tokens(typed)
         self._held = self._find_held(subject) if subject else set()
         self.clauses = self._cut()
         self._rows: dict[int, tuple[_Item, list[tuple[int, ...]]]] = {}
-        self._starts: dict[tuple[str, bool], list[int]] = {}
         self._scales: dict[int, tuple[Scale, ...]] = {}
+        self._doubts: dict[int, set[int]] = {}
 
     def _find_held(self, subject: Subject) -> set[int]:
         """Return the tokens in a row of words of the subject, such as ``salt and pepper``."""
@@ -692,8 +758,9 @@ class Statement:
         )
         if clause.corrects:
             return
+        turning = known.denials | known.ahead | known.than | known.than_behind
         for index, (place, word) in enumerate(zip(clause.places, words, strict=True)):
-            if place in self._held:
+            if place in self._held or word not in turning:
                 continue
             if any(tuple(words[index : index + len(row)]) == row for row in known.harmless):
                 continue
@@ -808,10 +875,9 @@ class Statement:
         known = _vocabulary()
         return sum(word in known.denials | known.verdicts for word in words) % 2 == 1
 
-    def know(self, examples: Iterable[Example]) -> None:
-        """Take the words of examples for words of their own, none of which misspells another."""
-        rows = (row for one in examples for step in one.steps for item in step for row in item.rows)
-        self._known = frozenset(word for row in rows for word in row)
+    def know(self, words: ExampleWords) -> None:
+        """Take the words of what will be looked for, before anything is."""
+        self._words = words
 
     def find(
         self,
@@ -859,19 +925,23 @@ class Statement:
         unsure = (
             any(self.clauses[at].doubted for at in clauses)
             or self._is_said_of_another(evidence, mine, others)
-            or any(self._has_doubt(self.clauses[at], evidence.places) for at in clauses)
+            or any(not self._list_doubts(at) <= {*evidence.places} for at in clauses)
             or self._has_other_end(evidence, example)
         )
         return replace(evidence, meaning="open") if unsure else evidence
 
-    def _has_doubt(self, clause: _Clause, places: Sequence[int]) -> bool:
-        """Return whether a clause holds words such as *fails to*, which no example foresees."""
-        words = [self.tokens[at].text for at in clause.places]
-        return any(
-            clause.places[at] not in places and tuple(words[at : at + len(row)]) == row
-            for row in _vocabulary().doubts
-            for at in range(len(words))
-        )
+    def _list_doubts(self, index: int) -> set[int]:
+        """Return the tokens of a clause where words such as *fails to* begin."""
+        if index not in self._doubts:
+            places = self.clauses[index].places
+            words = [self.tokens[at].text for at in places]
+            self._doubts[index] = {
+                places[at]
+                for row in _vocabulary().doubts
+                for at in range(len(words))
+                if words[at] == row[0] and tuple(words[at : at + len(row)]) == row
+            }
+        return self._doubts[index]
 
     def _has_other_end(self, evidence: Evidence, example: Example) -> bool:
         """Return whether clauses also say the other end of a scale of an example.
@@ -919,7 +989,7 @@ class Statement:
     def _names(self, clause: _Clause, rows: Iterable[Words]) -> bool:
         """Return whether a clause names one of some things, and does not compare with it."""
         return any(
-            at not in clause.compared and _has_row(self.tokens, at, row, known=self._known)
+            at not in clause.compared and _has_row(self.tokens, at, row, known=self._words.own)
             for row in rows
             for at in clause.places
         )
@@ -1079,7 +1149,7 @@ class Statement:
             rows = tuple(
                 scale for row, scale in _vocabulary().phrases if self._has_loose_row(place, row)
             )
-            self._scales[place] = rows or _scales_of(word, slips=word not in self._known)
+            self._scales[place] = rows or _scales_of(word, slips=word not in self._words.own)
         return self._scales[place]
 
     def _has_loose_row(self, place: int, row: Sequence[str]) -> bool:
@@ -1097,12 +1167,12 @@ class Statement:
     def _list_rows(self, item: _Item) -> list[tuple[int, ...]]:
         """Return the tokens of each place of the text where a row of an item stands."""
         if id(item) not in self._rows:
-            found = sorted(
+            found = () if item.begins.isdisjoint(self._begun) else sorted(
                 (at, number)
                 for number, row in enumerate(item.rows)
-                for at in self._find_starts(row[0], exactly=item.formula)
+                for at in self._begun.get(row[0], ())
                 if self._stands(item, row, at)
-            )
+            )  # fmt: skip
             rows = [tuple(range(at, at + len(item.rows[number]))) for at, number in found]
             self._rows[id(item)] = (item, rows)
         return self._rows[id(item)][1]
@@ -1121,20 +1191,14 @@ class Statement:
                 found.append((at, after))
         return found[::-1]
 
-    def _find_starts(self, word: str, *, exactly: bool) -> list[int]:
-        """Return the tokens at which a row with this first word may begin.
-
-        Most rows begin with a word that is nowhere in the text, and many with the same one.
-        """
-        if (word, exactly) not in self._starts:
-            known = self._known
-            self._starts[word, exactly] = [
-                at
-                for at, typed in self._firsts
-                if typed == word
-                or (not exactly and is_form_of(typed, word, slips=typed not in known))
-            ]
-        return self._starts[word, exactly]
+    @cached_property
+    def _begun(self) -> dict[str, list[int]]:
+        """Return the tokens at which a row may begin, by its first word."""
+        found: dict[str, list[int]] = {}
+        for at, typed in self._firsts:
+            for word in self._words.find_begun(typed):
+                found.setdefault(word, []).append(at)
+        return found
 
     def _stands(self, item: _Item, row: Sequence[str], place: int) -> bool:
         """Return whether a row stands at a token; a formula only if it goes on neither way.
@@ -1143,7 +1207,7 @@ class Statement:
         """
         if len(row) == 1 and place in self._held:
             return False
-        if not _has_row(self.tokens, place, row, exactly=item.formula, known=self._known):
+        if not _has_row(self.tokens, place, row, exactly=item.formula, known=self._words.own):
             return False
         if not item.formula and len(row[0]) > 1:
             return True
