@@ -6,8 +6,9 @@ import operator
 import re
 import unicodedata
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from functools import cache, lru_cache
+from typing import Any, NamedTuple
 
 from quizgen.locale import list_languages, load_words
 
@@ -50,24 +51,69 @@ def fold_word(text: str) -> str:
     return text.replace(" ", "")
 
 
+class _Words(NamedTuple):
+    """The words of a language with what they say in English, and how its words are put together."""
+
+    said: dict[str, tuple[str, ...]]
+    endings: tuple[str, ...]
+    links: tuple[str, ...]
+
+
 @cache
-def load_translations() -> dict[str, tuple[str, ...]]:
-    """Return common words of other languages, folded, with what they say in English."""
-    return {
-        fold_word(word): tuple(said)
-        for lang in list_languages()
-        for word, said in load_words(lang, "answers").get("said", {}).items()
-    }
+def _load_known_words() -> tuple[_Words, ...]:
+    """Return the words of each language, folded, with what they say in English."""
+    return tuple(_read_known_words(load_words(lang, "answers")) for lang in list_languages())
 
 
+def _read_known_words(table: Mapping[str, Any]) -> _Words:
+    """Return the words of one language, those with the most endings first."""
+    said: dict[str, list[str]] = {}
+    for english, words in table["said"].items():
+        for word in words:
+            said.setdefault(fold_word(word), []).append(english)
+    endings = sorted(map(fold_word, table["forms"]["endings"]), key=len, reverse=True)
+    listed = {word: tuple(senses) for word, senses in said.items()}
+    return _Words(listed, tuple(endings), tuple(table["forms"]["links"]))
+
+
+@lru_cache(maxsize=4096)
 def find_translation(word: str) -> tuple[str, ...]:
-    """Return what a word says in English, maybe with an adjective's ending; none if unknown."""
-    folded, known = fold_word(word), load_translations()
-    stem = _ADJECTIVE.sub("", folded)
-    return known.get(folded) or known.get(stem) or known.get(f"{stem}e", ())
+    """Return what a word of another language says in English, each of its senses; none if unknown.
+
+    It may have an ending of its language, and be put together of two words where that is done.
+    """
+    folded = fold_word(word)
+    for words in _load_known_words():
+        if found := _find_with_ending(words, folded):
+            return found
+    return next(filter(None, (_find_compound(words, folded) for words in _load_known_words())), ())
 
 
-_ADJECTIVE = re.compile(r"(?<=.{4})e[rsnm]?$")
+def _find_with_ending(words: _Words, folded: str) -> tuple[str, ...]:
+    """Return the senses of a word, as it stands or without an ending; none if unknown."""
+    if folded in words.said:
+        return words.said[folded]
+    for ending in words.endings:
+        stem = folded.removesuffix(ending)
+        found = words.said.get(stem) or words.said.get(f"{stem}e")
+        if found and stem != folded and len(stem) >= LEAST_STEM:
+            return found
+    return ()
+
+
+def _find_compound(words: _Words, folded: str) -> tuple[str, ...]:
+    """Return the sense of two known words written as one; none where that is not done."""
+    for cut in range(LEAST_STEM, len(folded) - LEAST_STEM + 1) if words.links else ():
+        last = _find_with_ending(words, folded[cut:])
+        stems = (folded[:cut].removesuffix(link) for link in words.links)
+        first = next((words.said[stem] for stem in stems if stem in words.said), ())
+        if first and last:
+            return (f"{first[0]} {last[0]}",)
+    return ()
+
+
+LEAST_STEM = 4
+"""Letters that are left of a word whose ending does not count."""
 
 
 MOST = 2

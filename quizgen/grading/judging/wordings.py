@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from functools import cache, lru_cache
 from itertools import pairwise
 
+from quizgen.grading.judging.likeness import find_likest
 from quizgen.grading.judging.spelling import (
     allowed_typos,
     find_translation,
@@ -126,10 +127,16 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
     if called:
         return called
     known = frozenset().union(*listed)
-    meant = frozenset(_find_known_word(word, known) for word in _join_compounds(spoken, known))
+    meant = frozenset(
+        one for word in _join_compounds(spoken, known) for one in _find_known_words(word, known)
+    )
     hits = [place for place, words in enumerate(listed, 1) if _own_words(words, listed) & meant]
     if len(hits) != 1:
-        hits = _find_nearest(meant & known, listed)
+        hits = [
+            place
+            for place in _find_nearest(meant & known, listed)
+            if len(listed[place - 1]) <= 2 * len(meant & known)
+        ]
     if len(hits) != 1:
         return 0
     wanted = listed[hits[0] - 1]
@@ -151,13 +158,31 @@ def find_wording_in(
     German words that are no language of the bank are tried as what they say in English. Places
     that differ between languages mean none.
     """
+    spoken = {*_split_words(typed)}
+    if not all_named and any(_is_shared(spoken, wordings) for wordings in languages):
+        return 0
     found = {find_wording(typed, wordings, all_named=all_named) for wordings in languages} - {0}
     if not found and len(languages) > 1:  # people mix them: ``অনেক বেশি dark``
         mixed = [" ".join(texts) for texts in zip(*languages, strict=True)]
         found = {find_wording(typed, mixed, all_named=all_named)} - {0}
     for said in () if found else list_translated(typed):
         found |= {find_wording(said, languages[0], all_named=all_named)} - {0}
-    return found.pop() if len(found) == 1 else 0
+    if found:
+        return found.pop() if len(found) == 1 else 0
+    split = [
+        [[_split_words(part) for part in _CLAUSE.split(wording)] for wording in wordings]
+        for wordings in languages
+    ]
+    return find_likest(_split_words(typed), split, all_named=all_named)
+
+
+_CLAUSE = re.compile(r"[:;,.](?= |$)")
+
+
+def _is_shared(said: set[str], wordings: Sequence[str]) -> bool:
+    """Return whether an answer is one word that several wordings have, and none is just that."""
+    split = [{*_split_words(one)} for one in wordings]
+    return len(said) == 1 and said not in split and sum(said <= one for one in split) > 1
 
 
 def share_words(typed: str, wordings: Sequence[str]) -> bool:
@@ -302,6 +327,16 @@ def _own_words(words: frozenset[str], listed: list[frozenset[str]]) -> frozenset
 def _denies(words: frozenset[str]) -> bool:
     """Return whether a word of denial is among some."""
     return bool(words & {"not", "no", "without", "never", "nicht", "kein", "keine", "ohne"})
+
+
+def _find_known_words(word: str, known: frozenset[str]) -> frozenset[str]:
+    """Return the known words that a typed one is, or says in another language; else itself."""
+    found = _find_known_word(word, known)
+    if found in known:
+        return frozenset({found})
+    senses = [frozenset(_split_words(said)) for said in find_translation(word)]
+    told = next((sense for sense in senses if sense and sense <= known), None)
+    return told or next(filter(None, senses), frozenset({found}))
 
 
 def _find_known_word(word: str, known: frozenset[str]) -> str:
