@@ -60,7 +60,11 @@ _REST = re.compile(
     re.IGNORECASE,
 )
 """All left sides that have not been named: ``BCE = CCD, rest CMOS``."""
-_SIDES = re.compile(r"\s*(?:-+>|=>|[-:=→⇒])+\s*|\s+(?:-|is|ist|goes with|belongs to|passt zu)\s+")
+_SIDES = re.compile(r"\s*(?:-+>|=>|[:=→⇒])+\s*|\s+(?:-|is|ist|goes with|belongs to|passt zu)\s+")
+_NUMBER_LAST = re.compile(r"(?P<words>.*[^\W\d_].*?) ?(?:\((?P<number>\d)\))")
+"""Words of a pair, and the number of its right side in brackets behind them."""
+_LABEL_FIRST = re.compile(r"(?P<label>[A-Z])\)? ?(?:[:=→]|-+>|[-–] ) ?(?P<words>.+)")
+"""The label of a left side with the words of the right one."""
 _FILLERS = frozenset(
     {"and", "und", "with", "mit", "to", "zu", "is", "ist", "goes", "belongs"}
     | {"gehoert", "passt", "matches", "match", "এবং", "ও", "হলো", "হল", "এর", "সাথে", "সঙ্গে"}
@@ -245,13 +249,42 @@ def _read_groups(spec: MatchSpec, text: str) -> list[tuple[str, str]]:
             named = {left for pairs in read for left, _ in pairs}
             others = "".join(left for left in spec.pairs if left not in named)
             read.append(_read_group(spec, f"{others}: {_REST.sub('', groups[-1])}"))
+        if len(groups) > 1 and sum(map(bool, read)) == len(groups) - 1 and not rest:
+            read = _complete_groups(spec, groups, read)
         if len(groups) > 1 and all(read):
             return [pair for pairs in read for pair in pairs]
     return []
 
 
+def _complete_groups(
+    spec: MatchSpec, groups: list[str], read: list[list[tuple[str, str]]]
+) -> list[list[tuple[str, str]]]:
+    """Return the groups with the one pair whose left side has a name that nobody knows.
+
+    It is the left side that no other pair has, if there are enough of these and its right side is
+    clear.
+    """
+    named = [left for pairs in read for left, _ in pairs]
+    missing = [left for left in spec.pairs if left not in named]
+    sides = _SIDES.split(groups[read.index([])])
+    if len(missing) != 1 or len(named) < FEWEST_NAMED or len(sides) != len(("left", "right")):
+        return read
+    left, right = _find_pair(spec, *sides)
+    return [pairs or [(missing[0], right)] for pairs in read] if right and not left else read
+
+
 def _read_group(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
     """Return the pairs of one right side with its left ones, by labels or words; else none."""
+    numbered = _NUMBER_LAST.fullmatch(group)
+    if numbered and numbered["number"] in _list_targets(spec):
+        pair = _find_numbered_pair(spec, numbered["words"], numbered["number"])
+        if pair:
+            return [pair]
+    headed = _LABEL_FIRST.fullmatch(group)
+    if headed and headed["label"] in spec.pairs:
+        right = _find_side(spec, headed["words"], _list_targets(spec))
+        if right and not re.search(r"[A-Z]\b", headed["words"][:1]):
+            return [(headed["label"], right)]
     tokens = [
         token for token in re.split(r"[\s,:=→>()-]+", group) if token not in {"", "and", "und"}
     ]
@@ -265,7 +298,7 @@ def _read_group(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
     if lefts:
         right = rest if rest in _list_targets(spec) else _find_side(spec, rest, _list_targets(spec))
         return [(left, right) for left in lefts] if right else []
-    if len(digits) == 1:
+    if len(digits) == 1 and digits[0] in _list_targets(spec):
         words = " ".join(token for token in tokens if token not in digits)
         left = _find_side(spec, words, list(spec.pairs))
         return [(left, digits[0])] if left else []
@@ -278,6 +311,17 @@ def _read_group(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
     found = {_find_pair(spec, " ".join(spoken[:cut]), " ".join(spoken[cut:])) for cut in cuts}
     found = {pair for pair in found if all(pair)}
     return [*found] if len(found) == 1 else []
+
+
+def _find_numbered_pair(spec: MatchSpec, words: str, number: str) -> tuple[str, str] | None:
+    """Return the pair of ``V = 0 gives black (3)``; None if its words name no or another side."""
+    label, _, rest = words.strip().partition(" ")
+    named = label.strip(":") if label.strip(":") in spec.pairs else ""
+    meant = _find_side(spec, rest if named else words, _list_targets(spec))
+    if named:
+        return (named, number) if meant in {"", number} and not is_denied(rest) else None
+    left = _find_side(spec, words, list(spec.pairs))
+    return (left, number) if left else None
 
 
 def _find_pair(spec: MatchSpec, first: str, second: str) -> tuple[str, str]:
@@ -305,6 +349,8 @@ def _find_side(spec: MatchSpec, words: str, labels: Sequence[str]) -> str:
     return labels[place - 1] if place else ""
 
 
+FEWEST_NAMED = 2
+"""Left sides that are named, so that the last one need not be."""
 MOST_WORDS = 12
 """Words of a pair that nothing parts."""
 _NUMBERED_SIDE = re.compile(

@@ -10,8 +10,14 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Sequence
 from functools import cache, lru_cache
 
-from quizgen.grading.judging.spelling import find_translation, fold_word
-from quizgen.grading.judging.statements import find_scales, is_form_of, list_clause_words
+from quizgen.grading.judging.spelling import (
+    allowed_typos,
+    find_translation,
+    fold_word,
+    is_another_word,
+    typo_distance,
+)
+from quizgen.grading.judging.statements import Scale, find_scales, is_form_of, list_clause_words
 from quizgen.grading.reading.number_words import list_number_words
 from quizgen.locale import list_languages, load_words
 
@@ -122,9 +128,16 @@ def _is_same_word(word: str, other: str) -> bool:
         return True
     if _read_number(word) >= 0 or _read_number(other) >= 0:
         return _read_number(word) == _read_number(other)
-    if not (word.isalpha() and other.isalpha()):
-        return not word.isascii() and is_form_of(word, other)
-    return min(len(word), len(other)) >= LEAST and is_form_of(word, other)
+    if word.isascii() and (min(len(word), len(other)) < LEAST or not (word + other).isalpha()):
+        return False
+    return is_form_of(word, other, slips=False) or _is_slip(word, other)
+
+
+def _is_slip(word: str, other: str) -> bool:
+    """Return whether a word is another one with a slip of the fingers."""
+    few = allowed_typos(other)
+    near = few and word[:1] == other[:1] and typo_distance(word, other, few) <= few
+    return bool(near) and not is_another_word(word, other, ())
 
 
 def _read_number(word: str) -> int:
@@ -152,7 +165,12 @@ def _says_the_same(word: str, other: str) -> bool:
 @lru_cache(maxsize=65536)
 def _is_like_word(word: str, other: str) -> bool:
     """Return whether a word says the same as another one, or is at the same end of a scale."""
-    return _says_the_same(word, other) or bool({*find_scales(word)} & {*find_scales(other)})
+    return _says_the_same(word, other) or bool({*_find_ends(word)} & {*_find_ends(other)})
+
+
+def _find_ends(word: str) -> tuple[Scale, ...]:
+    """Return the ends of scales that a word as it stands is at."""
+    return find_scales(word, slips=False)
 
 
 @cache
@@ -223,13 +241,13 @@ def _point_one_way(
 
     More of what the wording has on another scale is no contradiction: *much darker*.
     """
-    ends = {end for word in wanted for end in find_scales(word)}
-    own = {end for word in spoken for end in find_scales(word)}
+    ends = {end for word in wanted for end in _find_ends(word)}
+    own = {end for word in spoken for end in _find_ends(word)}
     if any((name, -sign) in ends and (name, sign) not in ends for name, sign in own):
         return False
     free = {*ends, *({MORE} if {one for one in own & ends if one[0] != MORE[0]} else ())}
     strange = {part for one in strangers for sense in _list_senses(one) for part in sense}
     return all(
-        {end for end in find_scales(word) if end[0] not in LOOSE_SCALES} <= free
+        {end for end in _find_ends(word) if end[0] not in LOOSE_SCALES} <= free
         for word in {*strangers, *strange}
     )

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from functools import cache, lru_cache
 from itertools import pairwise
 
@@ -36,6 +36,8 @@ _SHARES = (
     (re.compile(r"\b(?:three quarters|drei ?viertel)\b"), "3/4"),
     (re.compile(r"\b(?:a |one )?quarter\b"), "1/4"),
     (re.compile("∞|(?<!\\S)(?:unendlich|অসীম)(?!\\S)"), "infinity"),
+    (re.compile(r"(?<=[^\W\d_])_(?=\w)"), ""),
+    (re.compile(r"(?<=\d) ?\.{2,}(?=[-\d ])"), " to "),
     (re.compile(r"(?<![\d\w])\.(?=\d)"), "0."),
     (re.compile(r"\b50 ?%"), "1/2"),
     (re.compile(r"\b25 ?%"), "1/4"),
@@ -159,16 +161,19 @@ def find_wording_in(
     that differ between languages mean none.
     """
     spoken = {*_split_words(typed)}
-    if not all_named and any(_is_shared(spoken, wordings) for wordings in languages):
+    if any(_is_shared(spoken, wordings) for wordings in languages):
         return 0
+    verbatim = {find_verbatim(typed, wordings) for wordings in languages} - {0}
+    if len(verbatim) == 1:
+        return verbatim.pop()
     found = {find_wording(typed, wordings, all_named=all_named) for wordings in languages} - {0}
     if not found and len(languages) > 1:  # people mix them: ``অনেক বেশি dark``
         mixed = [" ".join(texts) for texts in zip(*languages, strict=True)]
         found = {find_wording(typed, mixed, all_named=all_named)} - {0}
     for said in () if found else list_translated(typed):
         found |= {find_wording(said, languages[0], all_named=all_named)} - {0}
-    if found:
-        return found.pop() if len(found) == 1 else 0
+    if len(found) == 1:
+        return found.pop()
     split = [
         [[_split_words(part) for part in _CLAUSE.split(wording)] for wording in wordings]
         for wordings in languages
@@ -176,12 +181,36 @@ def find_wording_in(
     return find_likest(_split_words(typed), split, all_named=all_named)
 
 
+def find_verbatim(typed: str, wordings: Sequence[str]) -> int:
+    """Return the place of the only wording that has these signs in it, ``y = -x``; 0 if none is.
+
+    They must not be words alone, which other words around them may turn, nor a number in another.
+    """
+    piece = _squeeze(typed)
+    if len(piece) < LEAST_TOLD or not _SIGN.search(piece):
+        return 0
+    shape = re.compile(rf"(?<![\w.]){re.escape(piece)}(?![\w.]|[*/^]|\()")
+    found = [place for place, one in enumerate(wordings, 1) if shape.search(_squeeze(one))]
+    same = [place for place, one in enumerate(wordings, 1) if _squeeze(one) == piece]
+    return next((some[0] for some in (same, found) if len(some) == 1), 0)
+
+
+def _squeeze(text: str) -> str:
+    """Return a text as its signs are compared: without blanks around them, powers as ``^``."""
+    for old, new in (("−", "-"), ("²", "^2"), ("³", "^3"), ("**", "^"), ("·", "*"), ("√", "sqrt")):
+        text = text.replace(old, new)
+    text = re.sub(r"\|([^|\s]+)\|", r"abs(\1)", text.strip(" .!?।"))
+    return re.sub(r" ?([-+*/^=<>(),;:|]) ?", r"\1", text)
+
+
+_SIGN = re.compile(r"[=^(_<>+*/]|\w\.\w|[a-z][A-Z]|\d-?[A-Za-z]")
+"""What words do not have: a sign of a formula or of a program."""
 _CLAUSE = re.compile(r"[:;,.](?= |$)")
 
 
-def _is_shared(said: set[str], wordings: Sequence[str]) -> bool:
+def _is_shared(said: Collection[str], wordings: Sequence[str]) -> bool:
     """Return whether an answer is one word that several wordings have, and none is just that."""
-    split = [{*_split_words(one)} for one in wordings]
+    split, said = [{*_split_words(one)} for one in wordings], {*said}
     return len(said) == 1 and said not in split and sum(said <= one for one in split) > 1
 
 
@@ -254,7 +283,7 @@ def _find_by_name(typed: str, wordings: Sequence[str]) -> int:
         ],
     ):
         if len(found) == 1:
-            return found[0]
+            return 0 if _is_shared(said & known, wordings) else found[0]
     return 0
 
 
@@ -346,7 +375,7 @@ def _find_known_word(word: str, known: frozenset[str]) -> str:
     """
     if word in known:
         return word
-    number = list_number_words().get(word, -1)
+    number = list_number_words().get(word, "")
     spelt = (
         [one for one in known if list_number_words().get(one) == int(word)]
         if word.isdecimal()
