@@ -275,16 +275,25 @@ def _complete_groups(
 
 def _read_group(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
     """Return the pairs of one right side with its left ones, by labels or words; else none."""
+    marked = _read_marked_pair(spec, group)
+    return [marked] if marked else _read_tokens(spec, group) or _read_sides(spec, group)
+
+
+def _read_marked_pair(spec: MatchSpec, group: str) -> tuple[str, str] | None:
+    """Return a pair whose right side is numbered behind its words, or its left one before them."""
     numbered = _NUMBER_LAST.fullmatch(group)
     if numbered and numbered["number"] in _list_targets(spec):
-        pair = _find_numbered_pair(spec, numbered["words"], numbered["number"])
-        if pair:
-            return [pair]
+        return _find_numbered_pair(spec, numbered["words"], numbered["number"])
     headed = _LABEL_FIRST.fullmatch(group)
-    if headed and headed["label"] in spec.pairs:
-        right = _find_side(spec, headed["words"], _list_targets(spec))
-        if right and not re.search(r"[A-Z]\b", headed["words"][:1]):
-            return [(headed["label"], right)]
+    words = headed["words"] if headed and headed["label"] in spec.pairs else ""
+    right = (
+        "" if _is_run_of_labels(spec, words[:1]) else _find_side(spec, words, _list_targets(spec))
+    )
+    return (headed["label"], right) if headed and right else None
+
+
+def _read_tokens(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
+    """Return the pairs of labels with a right side in words, or of a number with a left one."""
     tokens = [
         token for token in re.split(r"[\s,:=→>()-]+", group) if token not in {"", "and", "und"}
     ]
@@ -302,6 +311,11 @@ def _read_group(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
         words = " ".join(token for token in tokens if token not in digits)
         left = _find_side(spec, words, list(spec.pairs))
         return [(left, digits[0])] if left else []
+    return []
+
+
+def _read_sides(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
+    """Return the pair of two sides in words, parted by a sign or at the only fitting place."""
     sides = _SIDES.split(group)
     if len(sides) == len(("left", "right")):
         pair = _find_pair(spec, *sides)

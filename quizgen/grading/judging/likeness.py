@@ -8,7 +8,7 @@ telling words tell of. None is where a word denies, counts, weighs or doubts wha
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
-from functools import cache, lru_cache
+from functools import partial
 
 from quizgen.grading.judging.spelling import (
     allowed_typos,
@@ -19,7 +19,8 @@ from quizgen.grading.judging.spelling import (
 )
 from quizgen.grading.judging.statements import Scale, find_scales, is_form_of, list_clause_words
 from quizgen.grading.reading.number_words import list_number_words
-from quizgen.locale import list_languages, load_words
+from quizgen.locale import cache_words
+from quizgen.locale.word_patterns import list_tables, list_words
 
 LOOSE_SCALES = frozenset({"sameness", "totality", "loss"})
 """Scales of words that often say little: *all*, *remain*."""
@@ -67,7 +68,12 @@ def find_likest(
             strangers = [word for word, found in places.items() if not found]
             words = [[word for clause in texts[place] for word in clause] for texts in languages]
             told = [word for word, found in telling.items() if place in found]
-            clear = _is_enough(told, strangers, words, all_named=all_named)
+            worded = [
+                word for word in told if place in _find_places(word, wordings, _says_the_same)
+            ]
+            clear = (worded or not strangers) and _is_enough(
+                told, strangers, words, all_named=all_named
+            )
             if clear and all(_agree(said, strangers, texts[place]) for texts in languages):
                 return place + 1
     return 0
@@ -101,7 +107,7 @@ def _find_places(
     found = {
         place for place, words in enumerate(wordings) if any(related(word, one) for one in words)
     }
-    for parts in _list_senses(word):
+    for parts in list_senses(word):
         found |= {
             place
             for place, words in enumerate(wordings)
@@ -110,18 +116,23 @@ def _find_places(
     return frozenset(found)
 
 
-@lru_cache(maxsize=4096)
-def _list_senses(word: str) -> tuple[tuple[str, ...], ...]:
-    """Return what a word says in another language, the words of each sense without fillers."""
+@partial(cache_words, most=4096)
+def list_senses(word: str) -> tuple[tuple[str, ...], ...]:
+    """Return what a word says in another language, the words of each sense without fillers.
+
+    The word may have lost its ending.
+    """
     fillers = list_clause_words("fillers")
+    endings = ("s",) if word.isascii() else list_words("wordings.endings")
     senses = (
         tuple(part for part in map(fold_word, said.split()) if part not in fillers)
-        for said in (*find_translation(word), *find_translation(f"{word}s"))
+        for form in (word, *(f"{word}{ending}" for ending in endings))
+        for said in find_translation(form)
     )
-    return tuple(filter(None, senses))
+    return tuple(dict.fromkeys(filter(None, senses)))
 
 
-@lru_cache(maxsize=65536)
+@partial(cache_words, most=65536)
 def _is_same_word(word: str, other: str) -> bool:
     """Return whether a word is a form of another one, as a number is only of itself."""
     if word == other:
@@ -148,7 +159,7 @@ def _read_number(word: str) -> int:
     return known.get(word, next((known[one] for one in find_translation(word) if one in known), -1))
 
 
-@lru_cache(maxsize=65536)
+@partial(cache_words, most=65536)
 def _says_the_same(word: str, other: str) -> bool:
     """Return whether a word says the same as another one, or is its beginning."""
     if _is_same_word(word, other):
@@ -162,7 +173,7 @@ def _says_the_same(word: str, other: str) -> bool:
     )
 
 
-@lru_cache(maxsize=65536)
+@partial(cache_words, most=65536)
 def _is_like_word(word: str, other: str) -> bool:
     """Return whether a word says the same as another one, or is at the same end of a scale."""
     return _says_the_same(word, other) or bool({*_find_ends(word)} & {*_find_ends(other)})
@@ -173,13 +184,13 @@ def _find_ends(word: str) -> tuple[Scale, ...]:
     return find_scales(word, slips=False)
 
 
-@cache
+@cache_words
 def _load_groups() -> tuple[frozenset[str], ...]:
     """Return the groups of words that say the same, folded, of all languages."""
     return tuple(
         frozenset(map(fold_word, (first, *words)))
-        for lang in list_languages()
-        for first, words in load_words(lang, "answers")["alike"].items()
+        for table in list_tables("alike")
+        for first, words in table.items()
     )
 
 
@@ -215,7 +226,7 @@ def _agree(said: Sequence[str], strangers: Sequence[str], meant: Clauses) -> boo
 
     A clause of the wording that the answer is silent on may deny something.
     """
-    spoken = {*said, *(part for word in said for sense in _list_senses(word) for part in sense)}
+    spoken = {*said, *(part for word in said for sense in list_senses(word) for part in sense)}
     touched = {
         word
         for clause in meant
@@ -246,7 +257,7 @@ def _point_one_way(
     if any((name, -sign) in ends and (name, sign) not in ends for name, sign in own):
         return False
     free = {*ends, *({MORE} if {one for one in own & ends if one[0] != MORE[0]} else ())}
-    strange = {part for one in strangers for sense in _list_senses(one) for part in sense}
+    strange = {part for one in strangers for sense in list_senses(one) for part in sense}
     return all(
         {end for end in _find_ends(word) if end[0] not in LOOSE_SCALES} <= free
         for word in {*strangers, *strange}

@@ -6,32 +6,20 @@ import operator
 import re
 import unicodedata
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping
-from functools import cache, lru_cache
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cache, lru_cache, partial
+from typing import NamedTuple
 
-from quizgen.locale import list_languages, load_words
+from quizgen.locale import cache_words
+from quizgen.locale.word_patterns import WordPattern, list_tables, list_words
 
-_BRITISH = (
-    ("colour", "color"),
-    ("grey", "gray"),
-    ("centre", "center"),
-    ("metre", "meter"),
-    ("isation", "ization"),
-    ("ise ", "ize "),
-    ("ising", "izing"),
-    ("fibre", "fiber"),
-    ("behaviour", "behavior"),
-    ("aluminium", "aluminum"),
-)
-_UMLAUTS = (("ä", "ae"), ("ö", "oe"), ("ü", "ue"), ("ß", "ss"))
-_ARTICLES = re.compile(r"^(?:the|an|a|der|die|das|ein|eine|it is|its) (?=\S)")
+_ARTICLES = WordPattern(r"^«spelling.articles» (?=\S)")
 _DASH = re.compile(r"[-‐‑‒–—−_/]")
 _DASHES = re.compile(r"(?<=[^\W_])[-‐‑‒–—−_/]|[-‐‑‒–—−_/](?!\d)")
 """Hyphens and dashes, but not the sign of a number."""
 
 
-@lru_cache(maxsize=4096)
+@partial(cache_words, most=4096)
 def fold_word(text: str) -> str:
     """Return a word answer without what does not matter in it.
 
@@ -46,9 +34,16 @@ def fold_word(text: str) -> str:
         text = _DASHES.sub(" ", text).replace("−", "-")
     text = " ".join(text.split()).strip(" .,;:!?\"'()।")
     text = _ARTICLES.sub("", text)
-    for old, new in (*_UMLAUTS, *_BRITISH):
+    for old, new in _list_variants():
         text = text.replace(old, new)
     return text.replace(" ", "")
+
+
+@cache_words
+def _list_variants() -> tuple[tuple[str, str], ...]:
+    """Return spellings of every language with those in whose place they stand: colour, color."""
+    pairs = (row.partition("=") for row in list_words("spelling.variants"))
+    return tuple((old, new) for old, _, new in pairs)
 
 
 class _Words(NamedTuple):
@@ -56,37 +51,44 @@ class _Words(NamedTuple):
 
     said: dict[str, tuple[str, ...]]
     endings: tuple[str, ...]
+    plain: tuple[str, ...]
     links: tuple[str, ...]
 
 
-@cache
+@cache_words
 def _load_known_words() -> tuple[_Words, ...]:
     """Return the words of each language, folded, with what they say in English."""
-    return tuple(_read_known_words(load_words(lang, "answers")) for lang in list_languages())
+    tables = zip(list_tables("said"), list_tables("spelling"), strict=True)
+    return tuple(_read_known_words(said, spelling) for said, spelling in tables)
 
 
-def _read_known_words(table: Mapping[str, Any]) -> _Words:
-    """Return the words of one language, those with the most endings first."""
+def _read_known_words(
+    table: Mapping[str, Sequence[str]], spelling: Mapping[str, Sequence[str]]
+) -> _Words:
+    """Return the words of one language, and its endings from the longest."""
     said: dict[str, list[str]] = {}
-    for english, words in table["said"].items():
+    for english, words in table.items():
         for word in words:
             said.setdefault(fold_word(word), []).append(english)
-    endings = sorted(map(fold_word, table["forms"]["endings"]), key=len, reverse=True)
-    listed = {word: tuple(senses) for word, senses in said.items()}
-    return _Words(listed, tuple(endings), tuple(table["forms"]["links"]))
+    return _Words(
+        {word: tuple(senses) for word, senses in said.items()},
+        tuple(sorted(map(fold_word, spelling["said-endings"]), key=len, reverse=True)),
+        ("", *spelling["dictionary-endings"]),
+        tuple(spelling["links"]),
+    )
 
 
-@lru_cache(maxsize=4096)
+@partial(cache_words, most=4096)
 def find_translation(word: str) -> tuple[str, ...]:
     """Return what a word of another language says in English, each of its senses; none if unknown.
 
     It may have an ending of its language, and be put together of two words where that is done.
     """
-    folded = fold_word(word)
-    for words in _load_known_words():
-        if found := _find_with_ending(words, folded):
-            return found
-    return next(filter(None, (_find_compound(words, folded) for words in _load_known_words())), ())
+    folded, tables = fold_word(word), _load_known_words()
+    found = (
+        find(words, folded) for find in (_find_with_ending, _find_compound) for words in tables
+    )
+    return next(filter(None, found), ())
 
 
 def _find_with_ending(words: _Words, folded: str) -> tuple[str, ...]:
@@ -95,9 +97,10 @@ def _find_with_ending(words: _Words, folded: str) -> tuple[str, ...]:
         return words.said[folded]
     for ending in words.endings:
         stem = folded.removesuffix(ending)
-        found = words.said.get(stem) or words.said.get(f"{stem}e")
-        if found and stem != folded and len(stem) >= LEAST_STEM:
-            return found
+        plain = (f"{stem}{end}" for end in words.plain if f"{stem}{end}" in words.said)
+        found = next(plain, "") if stem != folded and len(stem) >= LEAST_STEM else ""
+        if found:
+            return words.said[found]
     return ()
 
 
@@ -174,10 +177,7 @@ def nearest_terms(typed: str, terms: Iterable[str]) -> tuple[list[str], int]:
     return best, least
 
 
-_PREFIXES = re.compile(
-    r"^(?:anti|non|nicht|dis|mis|trans|over|under|super|sub|pre|post|un|in|im|ir|il|an|de|re|ab|ent|be|ver|a)"
-    r"(?=.{3})"
-)
+_PREFIXES = WordPattern(r"^«spelling.prefixes»(?=.{3})")
 
 
 def is_another_word(typed: str, term: str, known: Iterable[str]) -> bool:
@@ -201,7 +201,7 @@ def is_another_word(typed: str, term: str, known: Iterable[str]) -> bool:
     return changed == 2 and sorted(word) != sorted(wanted)
 
 
-@lru_cache(maxsize=4096)
+@partial(cache_words, most=4096)
 def _strip_word_prefix(word: str) -> str:
     """Return a folded word without a prefix that turns or shifts its meaning."""
     return _PREFIXES.sub("", word)

@@ -24,7 +24,7 @@ from quizgen.grading.judging.spelling import (
     is_another_word,
     typo_distance,
 )
-from quizgen.locale import list_languages, load_words
+from quizgen.locale import cache_words, list_languages, load_words
 
 Meaning = Literal["said", "half", "denied", "open"]
 """What a clause does with an idea; ``open`` where its words are there and its sign is not sure."""
@@ -182,7 +182,7 @@ def _vocabulary() -> _Vocabulary:
     )
 
 
-@cache
+@cache_words
 def list_clause_words(name: str) -> frozenset[str]:
     """Return the single words of a list of clauses in all languages, folded: ``denials``."""
     return frozenset(

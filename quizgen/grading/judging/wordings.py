@@ -9,10 +9,10 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Collection, Sequence
-from functools import cache, lru_cache
+from functools import partial
 from itertools import pairwise
 
-from quizgen.grading.judging.likeness import find_likest
+from quizgen.grading.judging.likeness import find_likest, list_senses
 from quizgen.grading.judging.spelling import (
     allowed_typos,
     find_translation,
@@ -21,21 +21,16 @@ from quizgen.grading.judging.spelling import (
 )
 from quizgen.grading.reading.answer_reader import says_otherwise
 from quizgen.grading.reading.number_words import list_number_words
-from quizgen.locale import list_languages, load_words
+from quizgen.locale import cache_words
+from quizgen.locale.word_patterns import WordPattern, list_tables, list_words, set_of_words
 
 _TOKEN = re.compile(
     r"[-+−]?(?:\d+/)?√?\d+(?:[.,]\d+)?(?:/√?\d+)?|[^\W\d_]+/\d+|(?:[^\W\d_]|[\u0980-\u09ff])+\d*"
 )
 _ROOT = re.compile(r"(?:sqrt|√) ?\(? ?(\d+) ?\)?")
-_SHARES = (
-    (re.compile(r"\b(?:a |one )?half\b"), "1/2"),
-    (re.compile(r"\b(?:an |one )eighth\b"), "1/8"),
-    (re.compile(r"\b(?:a |one )sixteenth\b"), "1/16"),
-    (re.compile(r"\b(?:a|one) third\b"), "1/3"),
-    (re.compile(r"\b(?:two thirds|zwei ?drittel)\b"), "2/3"),
-    (re.compile(r"\b(?:three quarters|drei ?viertel)\b"), "3/4"),
-    (re.compile(r"\b(?:a |one )?quarter\b"), "1/4"),
-    (re.compile("∞|(?<!\\S)(?:unendlich|অসীম)(?!\\S)"), "infinity"),
+_SHARE = WordPattern(r"\b«wordings.shares»\b")
+_SIGNS = (
+    (WordPattern(r"∞|(?<!\S)«wordings.infinity»(?!\S)"), "infinity"),
     (re.compile(r"(?<=[^\W\d_])_(?=\w)"), ""),
     (re.compile(r"(?<=\d) ?\.{2,}(?=[-\d ])"), " to "),
     (re.compile(r"(?<![\d\w])\.(?=\d)"), "0."),
@@ -45,69 +40,13 @@ _SHARES = (
     (re.compile(r"(?<=\d)[.,]0+(?!\d)"), ""),
     (re.compile(r"(?<![^\W_])([a-z]{3,})(?=\d)"), r"\1 "),
     (re.compile(r"(?<=\d) ?[-–—] ?(?=\d)"), " to "),
-    (re.compile(r"\b(?:minus|negative) (?=\d)"), "-"),
+    (WordPattern(r"\b«minus» (?=\d)"), "-"),
     (re.compile(r"(?<!\S)\+(?=\d)"), ""),
-    (re.compile(r"\b(?:between|zwischen) (.+) (?:and|und) "), r"from \1 to "),
-    (re.compile(r"\bvon\b"), "from"),
-    (re.compile(r"\bbis\b|থেকে"), "to"),
+    (WordPattern(r"\b«between» (.+) «and» "), r"from \1 to "),
+    (WordPattern(r"\b«from»\b"), "from"),
+    (WordPattern(r"(?<![^\W\d_])«to»(?!\w)"), "to"),
 )
-"""Shares in words, and other ways to say what a wording has."""
-_IDLE = frozenset(
-    {
-        "a",
-        "an",
-        "the",
-        "it",
-        "its",
-        "is",
-        "are",
-        "be",
-        "of",
-        "this",
-        "that",
-        "these",
-        "those",
-        "and",
-    }
-    | {
-        "by",
-        "or",
-        "oder",
-        "becomes",
-        "become",
-        "der",
-        "die",
-        "das",
-        "ist",
-        "sind",
-        "und",
-        "ein",
-        "eine",
-        "i",
-        "think",
-        "at",
-        "on",
-        "এর",
-        "এ",
-        "টি",
-        "টা",
-        "এই",
-        "হব",
-        "হয়",
-        "হবে",
-        "হয়ে",
-        "যাব",
-        "যায়",
-        "আর",
-        "ও",
-        "এবং",
-    }
-)
-_JOINING = frozenset({"from", "to", "in", "with", "as", "for", "has", "have", "may", "so"})
-"""Words that say little by themselves, though no other wording may have them."""
-_AGAINST = frozenset(
-    {"wrong", "false", "incorrect", "falsch", "instead", "rather", "other", "others", "ভুল", "মিথ্যা"}
-)
+"""Other ways to say what a wording has."""
 _MOST_WORDS_MORE = 8
 """Words of an answer that the meant wording has not."""
 
@@ -144,7 +83,12 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
     wanted = listed[hits[0] - 1]
     more = meant - wanted
     counted = any(list_number_words().get(word, 0) > 1 or word.isdecimal() for word in more)
-    if counted or more & known or more & _AGAINST or len(more) > _MOST_WORDS_MORE:
+    if (
+        counted
+        or more & known
+        or more & set_of_words("wordings.against")
+        or len(more) > _MOST_WORDS_MORE
+    ):
         return 0
     if not all_named and not _says_enough(_split_words(wordings[hits[0] - 1]), meant, listed):
         return 0
@@ -290,7 +234,7 @@ def _find_by_name(typed: str, wordings: Sequence[str]) -> int:
 def _is_little_more(words: frozenset[str]) -> bool:
     """Return whether words beside a name neither deny it nor count anything."""
     return len(words) <= MOST_WORDS_BESIDE and not (
-        words & _AGAINST
+        words & set_of_words("wordings.against")
         or _denies(words)
         or says_otherwise(" ".join(words))
         or any(word.isdecimal() or word in list_number_words() for word in words)
@@ -302,7 +246,18 @@ def _find_same_pieces(typed: str, wordings: Sequence[str]) -> list[int]:
     said = _list_pieces(typed)
     if len(said) < FEWEST_PIECES:
         return []
-    return [place for place, one in enumerate(wordings, 1) if _list_pieces(one) == said]
+    listed = [_list_pieces(one) for one in wordings]
+    return [place for place, pieces in enumerate(listed, 1) if pieces == said] or [
+        place for place, pieces in enumerate(listed, 1) if _are_within(said, pieces)
+    ]
+
+
+def _are_within(said: frozenset[frozenset[str]], pieces: frozenset[frozenset[str]]) -> bool:
+    """Return whether each piece of a wording has just one of an answer in it."""
+    within = {one: [piece for piece in pieces if one and one <= piece] for one in said}
+    return len(said) == len(pieces) == len(
+        {*(p for some in within.values() for p in some)}
+    ) and all(len(some) == 1 for some in within.values())
 
 
 def _list_pieces(text: str) -> frozenset[frozenset[str]]:
@@ -310,7 +265,7 @@ def _list_pieces(text: str) -> frozenset[frozenset[str]]:
     return frozenset(frozenset(_split_words(piece)) for piece in _JOINED.split(text))
 
 
-_JOINED = re.compile(r"[,;] |,? (?:and|und|ও|এবং|আর) ")
+_JOINED = WordPattern(r"[,;] |,? «and» ")
 
 
 def _join_compounds(spoken: tuple[str, ...], known: frozenset[str]) -> tuple[str, ...]:
@@ -333,10 +288,10 @@ def _says_enough(
     exact = {
         word
         for word in {*wording} - frozenset.intersection(*listed)
-        if len(word) == 1 or not (word.isalpha() or _BANGLA.match(word))
+        if len(word) == 1 or any(map(str.isdigit, word))
     }
     own = _own_words(frozenset(wording), listed)
-    own = own - _JOINING or own
+    own = own - set_of_words("wordings.joining") or own
     said = own & meant
     if exact - meant or 2 * len(said) < len(own):
         return False
@@ -355,7 +310,7 @@ def _own_words(words: frozenset[str], listed: list[frozenset[str]]) -> frozenset
 
 def _denies(words: frozenset[str]) -> bool:
     """Return whether a word of denial is among some."""
-    return bool(words & {"not", "no", "without", "never", "nicht", "kein", "keine", "ohne"})
+    return bool(words & set_of_words("wordings.denying"))
 
 
 def _find_known_words(word: str, known: frozenset[str]) -> frozenset[str]:
@@ -363,7 +318,7 @@ def _find_known_words(word: str, known: frozenset[str]) -> frozenset[str]:
     found = _find_known_word(word, known)
     if found in known:
         return frozenset({found})
-    senses = [frozenset(_split_words(said)) for said in find_translation(word)]
+    senses = [frozenset(_split_words(" ".join(said))) for said in list_senses(word)]
     told = next((sense for sense in senses if sense and sense <= known), None)
     return told or next(filter(None, senses), frozenset({found}))
 
@@ -393,7 +348,7 @@ def _find_known_word(word: str, known: frozenset[str]) -> str:
     return near[0] if len(near) == 1 else word
 
 
-@lru_cache(maxsize=4096)
+@partial(cache_words, most=4096)
 def _stem(word: str) -> str:
     """Return an English word without the ending of its verb: ``averag`` of ``averaging``."""
     short = _VERB_ENDING.sub("", word)
@@ -403,41 +358,46 @@ def _stem(word: str) -> str:
 MOST_WORDS_BESIDE, FEWEST_PIECES = 3, 2
 LONG = 9
 """Letters of a word that tells a wording by itself."""
-_VERB_ENDING = re.compile(r"(?:ing|ed|ion|e)$")
+_VERB_ENDING = WordPattern(r"«wordings.verb-endings»$")
 LEAST_STEM = 4
 """Letters that are left of a word whose ending does not matter."""
 
 
-@lru_cache(maxsize=1024)
+@partial(cache_words, most=1024)
 def _split_words(text: str) -> tuple[str, ...]:
     """Return the words of a text by which wordings are told apart, in order."""
     text = _ROOT.sub(r"√\1", unicodedata.normalize("NFC", text).casefold().replace("−", "-"))
-    for pattern, sign in _SHARES:
+    text = _SHARE.sub(lambda one: _load_shares()[one[0]], text)
+    for pattern, sign in _SIGNS:
         text = pattern.sub(sign, text)
     text = _same_pattern().sub(lambda one: _load_same_words()[one[0]], text)
     folded = (_fold(token) for token in _TOKEN.findall(text))
-    return tuple(word for word in folded if word and word not in _IDLE)
+    return tuple(word for word in folded if word and word not in set_of_words("wordings.idle"))
 
 
-_BANGLA = re.compile("[\u0980-\u09ff]")
-_BANGLA_ENDING = re.compile(
-    r"(?<=..)(?:টির|টার|টিতে|টাতে|টি|টা|টো|গুলোর|গুলির|গুলোকে|গুলো|গুলি|য়ের|ের|েই|কে|তে|র|ে|ই)$"
-)
-"""What a case, a number or a stress adds to a Bangla word."""
+_ENDING = WordPattern(r"(?<=..)«wordings.endings»$")
+"""What a case, a number or a stress adds to a word."""
 
 
-@cache
+@cache_words
+def _load_shares() -> dict[str, str]:
+    """Return the shares in words of all languages to fractions."""
+    rows = (row.split(" ", 1) for row in list_words("wordings.shares"))
+    return {word: share for share, word in rows}
+
+
+@cache_words
 def _load_same_words() -> dict[str, str]:
     """Return the words and phrases that say the same as another one, of all languages."""
     return {
         word: said
-        for lang in list_languages()
-        for said, words in load_words(lang, "answers").get("same", {}).items()
+        for table in list_tables("same")
+        for said, words in table.items()
         for word in words
     }
 
 
-@cache
+@cache_words
 def _same_pattern() -> re.Pattern[str]:
     """Return the pattern of everything that says the same as another word."""
     listed = "|".join(map(re.escape, sorted(_load_same_words(), key=len, reverse=True)))
@@ -446,8 +406,9 @@ def _same_pattern() -> re.Pattern[str]:
 
 def _fold(token: str) -> str:
     """Return a word without the ending of its plural and without spelling variants."""
-    if _BANGLA.match(token):
-        return _BANGLA_ENDING.sub("", token)
+    short = _ENDING.sub("", token)
+    if short != token:
+        return short
     if not token.isalpha() or token in list_number_words():
         return token
     word = fold_word(token)
