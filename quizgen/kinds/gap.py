@@ -48,6 +48,7 @@ from quizgen.locale import (
     load_words,
     translate,
 )
+from quizgen.locale.word_patterns import WordPattern, list_words
 from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.units import Dimension
 from quizgen.maths.values import Value
@@ -145,11 +146,11 @@ class GapSpec(WordSpec, kw_only=True, frozen=True):
 _JOINERS = "\u200c\u200d"
 _SEPARATORS = tuple(
     map(
-        re.compile,
+        WordPattern,
         (
             r"[;\n|]",
             r"[;\n|,/]|\s→\s",
-            r"\s*(?:[,;&]|\b(?:and|und)\b|\s(?:এবং|ও)\s)\s*",
+            r"\s*(?:[,;&]|\s«and»\s)\s*",
             r"\s+(?:[-–—→]|->|=>)\s+",
             r"\s+",
             r"[-–]",
@@ -163,12 +164,11 @@ _NUMBER = re.compile(
 )
 _PAIR = re.compile(r"(?<![-–—\d])(\d{1,2})\s*[-–—]\s*(\d{1,2})(?![-–—\d])")
 """A gap's number and a number as its word, ``1-3``."""
-_ENDINGS = ("ly", "e", "er", "en", "es", "em")
 LONG = 6
 """Letters of a term that may take an ending."""
 _ENDS = " \t\r\n,;="
 _QUOTES = "[]{}“”„‘’«»\"'"
-_JOINED = re.compile(r"\s(?:and|und|এবং|ও)$")
+_JOINED = WordPattern(r"\s«and»$")
 _MEASURE = re.compile(r"\d+ ?[a-zµ]{2,3}")
 _PICTURE = "\N{FRAME WITH PICTURE}"
 _PICTURE_IS = re.compile(rf"{_PICTURE} *\d+ *(?:[:=→⇒]|-+>)")
@@ -319,7 +319,7 @@ def _translate_word(word: str, terms: list[str]) -> str:
     return next(filter(None, found), word)
 
 
-_LISTED = re.compile(r"\s*(?:[,;/&\s]|\b(?:and|und|ও|এবং)\b)\s*")
+_LISTED = WordPattern(r"\s*(?:[,;/&\s]|(?<!\S)«and»(?!\S))\s*")
 MOST_PIECES = 6
 """Words that can be a list of them."""
 
@@ -381,9 +381,7 @@ def _drop_remark(word: str, terms: list[str]) -> str:
 
 
 _BANGLA = re.compile("[\u0980-\u09ff]")
-_OFFERED = re.compile(
-    r"^ ?(?:not|or|nicht|oder|maybe|perhaps|\?|না)|(?:^|[ ,])(?:or|oder|বা|অথবা) ", re.IGNORECASE
-)
+_OFFERED = WordPattern(r"^ ?«choices.offered»|(?:^|[ ,])«choices.or» ", re.IGNORECASE)
 
 
 def _drop_idle_words(word: str, terms: list[str]) -> str:
@@ -401,7 +399,7 @@ def _is_all_right(word: str, right: set[str]) -> bool:
     return len(pieces) > 1 and all(one & right for one in said)
 
 
-_ALONGSIDE = re.compile(r" ?/ ?|, | (?:and|und|ও|এবং|&) ")
+_ALONGSIDE = WordPattern(r" ?/ ?|, | (?:«and»|&) ")
 
 
 def _is_in_company(word: str, gap: Sequence[str], others: Sequence[str]) -> bool:
@@ -430,7 +428,7 @@ def _is_in_company(word: str, gap: Sequence[str], others: Sequence[str]) -> bool
     return False
 
 
-_TIMES_AHEAD = re.compile(r"^\d+ ?(?:times|x|×|mal|গুণ) ", re.IGNORECASE)
+_TIMES_AHEAD = WordPattern(r"^\d+ ?(?:«choices.times»|x|×) ", re.IGNORECASE)
 """By how much something is ``10 times less``."""
 MOST_COMPANY = 3
 """Words beside a term that are no sentence yet."""
@@ -466,9 +464,9 @@ def _is_inflection(word: str, right: set[str]) -> bool:
     German adjectives lose their noun that way, ``additive`` for ``additive Mischung``.
     """
     whole = fold_word(word)
-    return whole.endswith(_ENDINGS) and any(
+    return any(
         whole.endswith(end) and len(whole) - len(end) >= LONG and whole[: -len(end)] in right
-        for end in _ENDINGS
+        for end in list_words("choices.word-endings")
     )
 
 

@@ -29,47 +29,46 @@ from quizgen.kinds.contract import (
     find_name_problems,
 )
 from quizgen.kinds.work import count_listed
+from quizgen.locale.word_patterns import WordPattern, set_of_words
 from quizgen.maths.notation import FormulaReadError
 
 _SEPARATORS = re.compile(r"[\s,;.|&\[\]{}।॥]+")
 _ARROWS = re.compile(r"\s*(?:->|=>|<->|--|[-:=>()→↔⇒⇔⟶⟷↦])+\s*|(?<=\w)[/_](?=\w)")
 _COMMAS = re.compile(r"[;,\n](?![^(]*\))\s*")
 """What stands between sides in order, outside brackets."""
-_LEFT_OVER = re.compile(
-    r"(?<=\d)[ ,;.]*\(?(?:\d+(?:(?:,| and| und) \d+)*) "
-    r"(?:(?:is|are|ist|sind|stays|stay|bleibt|bleiben) "
-    r"(?:left over|left|over|unused|not used|spare|extra|übrig|nothing|none)"
-    r"|unused|left over|übrig|fits nothing|fits nowhere)\)?\.?$",
+_LEFT_OVER = WordPattern(
+    r"(?<=\d)[ ,;.]*\(?(?:\d+(?:(?:,| «and») \d+)*) "
+    r"(?:«choices.stays» «choices.left»|«choices.fits-nothing»)\)?\.?$",
     re.IGNORECASE,
 )
 """Right sides that are said to belong to nothing, behind the pairs."""
-_GROUPS = (
-    r"[;\n]",
-    r"[;\n]|\. ",
-    r"[,;\n](?![^(]*\))\s*(?=[A-Z]\b)",
-    r"[;\n]| (?:and|und|&|ও|এবং) ",
-    r"[,;\n]",
-    r"[,;\n]| (?:and|und|&|ও|এবং) ",
+_GROUPS = tuple(
+    map(
+        WordPattern,
+        (
+            r"[;\n]",
+            r"[;\n]|\. ",
+            r"[,;\n](?![^(]*\))\s*(?=[A-Z]\b)",
+            r"[;\n]| (?:«and»|&) ",
+            r"[,;\n]",
+            r"[,;\n]| (?:«and»|&) ",
+            r"[,;\n]|\. ",
+        ),
+    )
 )
 """What may stand between pairs, or between all that belong to one right side."""
-_RUN_OF_LABELS = re.compile(r"(?<![^\W_])([A-Z])(?:, ?| (?:and|und|&|ও|এবং) )(?=[A-Z](?![^\W_]))")
-_REST = re.compile(
-    r"^(?:and |und )?(?:the |der |die )?(?:rest|others?|remaining|übrigen?|anderen?"
-    r"|বাকি(?:গুলো|টা|রা)?|অন্যগুলো)"
-    r"(?: (?:is|are|ist|sind))?(?= |:|=)[ :=]*|[ :=]*(?:rest|others|বাকিগুলো)$",
+_RUN_OF_LABELS = WordPattern(r"(?<![^\W_])([A-Z])(?:, ?| (?:«and»|&) )(?=[A-Z](?![^\W_]))")
+_REST = WordPattern(
+    r"^(?:«and» )?(?:«articles» )?«choices.rest»(?: «choices.are»)?(?= |:|=)[ :=]*"
+    r"|[ :=]*«choices.rest»$",
     re.IGNORECASE,
 )
 """All left sides that have not been named: ``BCE = CCD, rest CMOS``."""
-_SIDES = re.compile(r"\s*(?:-+>|=>|[:=→⇒])+\s*|\s+(?:-|is|ist|goes with|belongs to|passt zu)\s+")
+_SIDES = WordPattern(r"\s*(?:-+>|=>|[:=→⇒])+\s*|\s+(?:-|«choices.belongs»)\s+")
 _NUMBER_LAST = re.compile(r"(?P<words>.*[^\W\d_].*?) ?(?:\((?P<number>\d)\))")
 """Words of a pair, and the number of its right side in brackets behind them."""
 _LABEL_FIRST = re.compile(r"(?P<label>[A-Z])\)? ?(?:[:=→]|-+>|[-–] ) ?(?P<words>.+)")
 """The label of a left side with the words of the right one."""
-_FILLERS = frozenset(
-    {"and", "und", "with", "mit", "to", "zu", "is", "ist", "goes", "belongs"}
-    | {"gehoert", "passt", "matches", "match", "এবং", "ও", "হলো", "হল", "এর", "সাথে", "সঙ্গে"}
-)
-"""Words between the two sides of a pair, folded."""
 
 
 class AuthoredMatch(AuthoredPooled, kw_only=True, tag="match", frozen=True):
@@ -242,7 +241,7 @@ def _read_groups(spec: MatchSpec, text: str) -> list[tuple[str, str]]:
     """Return the pairs of ``CCD: A, B; CMOS: C`` or ``HSV 2, YUV 1``; none if one is unclear."""
     text = _RUN_OF_LABELS.sub(r"\1 ", text)
     for between in _GROUPS:
-        groups = [group.strip() for group in re.split(between, text) if group.strip()]
+        groups = [group.strip() for group in between.split(text) if group.strip()]
         rest = _REST.search(groups[-1]) if len(groups) > 1 else None
         read = [_read_group(spec, group) for group in (groups[:-1] if rest else groups)]
         if rest and all(read):
@@ -295,7 +294,9 @@ def _read_marked_pair(spec: MatchSpec, group: str) -> tuple[str, str] | None:
 def _read_tokens(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
     """Return the pairs of labels with a right side in words, or of a number with a left one."""
     tokens = [
-        token for token in re.split(r"[\s,:=→>()-]+", group) if token not in {"", "and", "und"}
+        token
+        for token in re.split(r"[\s,:=→>()-]+", group)
+        if token and token not in set_of_words("and")
     ]
     runs = [token for token in tokens if _is_run_of_labels(spec, token)]
     lefts = [label for token in runs for label in token]
@@ -367,9 +368,7 @@ FEWEST_NAMED = 2
 """Left sides that are named, so that the last one need not be."""
 MOST_WORDS = 12
 """Words of a pair that nothing parts."""
-_NUMBERED_SIDE = re.compile(
-    r"(?:(?:setting|picture|photo|number|option|graph|curve|কার্ভ|ছবি|Bild) )?(\d)"
-)
+_NUMBERED_SIDE = WordPattern(r"(?:(?:«pictures»|«choices.numbered») )?(\d)", re.IGNORECASE)
 BANGLA_DIGITS = str.maketrans("০১২৩৪৫৬৭৮৯", "0123456789")
 
 
@@ -389,7 +388,7 @@ def _split_pairs(text: str, left: dict[str, str]) -> list[tuple[str, str]]:
         If a label is left without a partner.
     """
     words = [w for w in map(fold_word, _SEPARATORS.split(_ARROWS.sub(" ", text))) if w]
-    words = [w for w in words if w not in _FILLERS or w in left]
+    words = [w for w in words if w in left or w not in set_of_words("choices.pair-fillers")]
     label = "|".join(re.escape(name) for name in sorted(left, key=len, reverse=True))
     run = re.compile(rf"(?:(?:{label})\d{{1,2}})+|(?:\d{{1,2}}(?:{label}))+")
     flat: list[str] = []

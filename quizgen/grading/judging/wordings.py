@@ -31,7 +31,7 @@ _ROOT = re.compile(r"(?:sqrt|√) ?\(? ?(\d+) ?\)?")
 _SHARE = WordPattern(r"\b«wordings.shares»\b")
 _SIGNS = (
     (WordPattern(r"∞|(?<!\S)«wordings.infinity»(?!\S)"), "infinity"),
-    (re.compile(r"(?<=[^\W\d_])_(?=\w)"), ""),
+    (re.compile(r"(?<![^\W_])([a-z])_(?=\w)"), r"\1"),
     (re.compile(r"(?<=\d) ?\.{2,}(?=[-\d ])"), " to "),
     (re.compile(r"(?<![\d\w])\.(?=\d)"), "0."),
     (re.compile(r"\b50 ?%"), "1/2"),
