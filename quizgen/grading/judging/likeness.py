@@ -71,7 +71,7 @@ def find_likest(
             worded = [
                 word for word in told if place in _find_places(word, wordings, _says_the_same)
             ]
-            clear = (worded or not strangers) and _is_enough(
+            clear = (worded or all_named or not strangers) and _is_enough(
                 told, strangers, words, all_named=all_named
             )
             if clear and all(_agree(said, strangers, texts[place]) for texts in languages):
@@ -91,6 +91,15 @@ def _find_whole(
             if words and all(any(_tells(one, word, related) for one in said) for word in words):
                 found.add(place)
     return frozenset(found if len(found) == 1 else ())
+
+
+def tells_all(said: Sequence[str], wanted: Sequence[str]) -> bool:
+    """Return whether an answer has each word of a wording that is no filler, or one like it."""
+    fillers = list_clause_words("fillers")
+    words = [word for word in wanted if word not in fillers]
+    return bool(words) and all(
+        any(_tells(one, word, _is_like_word) for one in said) for word in words
+    )
 
 
 def _tells(word: str, wanted: str, related: Callable[[str, str], bool]) -> bool:

@@ -12,7 +12,7 @@ from collections.abc import Collection, Sequence
 from functools import partial
 from itertools import pairwise
 
-from quizgen.grading.judging.likeness import find_likest, list_senses
+from quizgen.grading.judging.likeness import find_likest, list_senses, tells_all
 from quizgen.grading.judging.spelling import (
     allowed_typos,
     find_translation,
@@ -123,6 +123,12 @@ def find_wording_in(
         for wordings in languages
     ]
     return find_likest(_split_words(typed), split, all_named=all_named)
+
+
+def says_whole(typed: str, wordings: Sequence[str]) -> bool:
+    """Return whether an answer has all words of one of some wordings, or words like them."""
+    said = _split_words(typed)
+    return any(tells_all(said, _split_words(wording)) for wording in wordings)
 
 
 def find_verbatim(typed: str, wordings: Sequence[str]) -> int:
