@@ -103,7 +103,7 @@ _ALL_BUT = WordPattern(
     r"|(?P<before>.+?) «choices.except-behind» «choices.all-behind»",
     re.IGNORECASE,
 )
-_ARE_TRUE = WordPattern(r" (?:«choices.are» )?«choices.right»$", re.IGNORECASE)
+_ARE_TRUE = WordPattern(r" «choices.are» «choices.right»$| «choices.right-behind»$", re.IGNORECASE)
 """What is said behind options that are chosen."""
 _WORDED = WordPattern(r"[,;\n]| (?:«and»|&) ")
 """What stands between several options that are named by their words."""
@@ -299,11 +299,23 @@ def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:
     places = _read_places(text, len(spec.choices()))
     if places and not _find_wording(spec, text):
         return places
+    if len(text) == 1 and (initial := _find_initial(spec, text)):
+        return initial
     named = _LETTER_LAST.fullmatch(text)
     if named is None or says_otherwise(named["words"]) or _find_wording(spec, named["words"]):
         return []
     position = LETTERS.find(named["mark"]) + 1
     return [position] if position <= len(spec.choices()) else []
+
+
+def _find_initial(spec: ChoiceSpec, letter: str) -> list[int]:
+    """Return the only option of one word that begins with a letter that is no label: Y, yellow."""
+    begun = [
+        place
+        for place, option in enumerate(spec.choices(), 1)
+        if option.isalpha() and option[:1].casefold() == letter.casefold()
+    ]
+    return begun if len(begun) == 1 and letter.upper() not in _list_letters(spec) else []
 
 
 def _find_reasoned_letter(spec: ChoiceSpec, typed: str) -> list[int]:
@@ -373,8 +385,10 @@ _OTHERS_ARE_WRONG = WordPattern(
 
 def _find_worded_options(spec: ChoiceSpec, typed: str) -> list[int]:
     """Return the options that are meant by some of their words; none if one of them is none."""
-    if _UNFINISHED.search(typed) or _ALTERNATIVE.search(typed):
+    if _UNFINISHED.search(typed):
         return []
+    if _ALTERNATIVE.search(typed):
+        return _find_alternative(spec, typed)
     quoted = _find_quoted_options(spec, typed) if spec.kind == "multi" else []
     if quoted:
         return quoted
@@ -382,6 +396,13 @@ def _find_worded_options(spec: ChoiceSpec, typed: str) -> list[int]:
     pieces = (quotes or _WORDED.split(typed)) if spec.kind == "multi" else [typed]
     found = [_find_wording(spec, piece) for piece in pieces if piece.strip()]
     return list(dict.fromkeys(found)) if all(found) else []
+
+
+def _find_alternative(spec: ChoiceSpec, typed: str) -> list[int]:
+    """Return the option that offers two things itself, ``one or two``; none of any other."""
+    place = _find_wording(spec, typed)
+    texts = [said[place - 1] for said in (spec.choices(), *spec.said)] if place else []
+    return [place] if any(map(_ALTERNATIVE.search, texts)) else []
 
 
 def _find_wording(spec: ChoiceSpec, words: str) -> int:
@@ -395,7 +416,8 @@ def _find_wording(spec: ChoiceSpec, words: str) -> int:
     if found or remarked is None or says_otherwise(remarked["remark"]):
         return found
     found = find_wording_in(remarked["words"], languages)
-    return found if find_wording_in(remarked["remark"], languages) in {0, found} else 0
+    told = find_wording_in(remarked["remark"], languages)
+    return found or told if told in {0, found} or not found else 0
 
 
 _IN_QUOTES = re.compile(r'["“„]([^"“”„]+)["”“]')
@@ -405,12 +427,18 @@ _AROUND_REMARK = " .!।"
 
 def _find_quoted_options(spec: ChoiceSpec, typed: str) -> list[int]:
     """Return the options of which an answer consists, word by word; none if more stands in it."""
-    rest, found = typed, []
-    for place, option in sorted(enumerate(spec.choices(), 1), key=lambda row: -len(row[1])):
+    rest, found = _fold_signs(typed), []
+    listed = [(place, _fold_signs(option)) for place, option in enumerate(spec.choices(), 1)]
+    for place, option in sorted(listed, key=lambda row: -len(row[1])):
         if option in rest:
-            rest = rest.replace(option, ";", 1)
+            rest = rest.replace(option, "\n", 1)
             found.append(place)
-    return sorted(found) if not _WORDED.sub("", rest.replace("; ;", "")).strip() else []
+    return sorted(found) if not _WORDED.sub("", re.sub("\n[,;]?\n", "", rest)).strip() else []
+
+
+def _fold_signs(text: str) -> str:
+    """Return a text with one sign for minus, and for what parts the numbers of a point."""
+    return re.sub(r" ?([=,;]) ?", r"\1", text.replace("−", "-")).replace(",", ";")
 
 
 def _read_set_apart(spec: ChoiceSpec, typed: str) -> list[int]:

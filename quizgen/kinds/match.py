@@ -11,7 +11,7 @@ import msgspec
 
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import fold_word
-from quizgen.grading.judging.wordings import find_wording_in, holds_wording
+from quizgen.grading.judging.wordings import find_wording, find_wording_in, holds_wording
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, is_denied
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, LONE_LETTER, PICTURES, normalise_typed
@@ -67,6 +67,8 @@ _REST = WordPattern(
 _SIDES = WordPattern(r"\s*(?:-+>|=>|[:=→⇒])+\s*|\s+(?:-|«choices.belongs»)\s+")
 _NUMBER_LAST = re.compile(r"(?P<words>.*[^\W\d_].*?) ?(?:\((?P<number>\d)\))")
 """Words of a pair, and the number of its right side in brackets behind them."""
+_NUMBERED_LABEL = re.compile(r"[A-Z] ?(?:[:=→]|-+>|[-–])? ?\d(?!\d)")
+"""A pair of labels, whatever words stand behind it."""
 _LABEL_FIRST = re.compile(r"(?P<label>[A-Z])\)? ?(?:[:=→]|-+>|[-–] ) ?(?P<words>.+)")
 """The label of a left side with the words of the right one."""
 
@@ -275,7 +277,10 @@ def _complete_groups(
 def _read_group(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
     """Return the pairs of one right side with its left ones, by labels or words; else none."""
     marked = _read_marked_pair(spec, group)
-    return [marked] if marked else _read_tokens(spec, group) or _read_sides(spec, group)
+    if marked:
+        return [marked]
+    pairs = _read_tokens(spec, group)
+    return pairs if pairs or _NUMBERED_LABEL.match(group) else _read_sides(spec, group)
 
 
 def _read_marked_pair(spec: MatchSpec, group: str) -> tuple[str, str] | None:
@@ -303,7 +308,7 @@ def _read_tokens(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
     rest = " ".join(token for token in tokens if token not in runs)
     digits = [token for token in tokens if token.isdecimal()]
     if len(lefts) == len(digits) == 1 and digits[0] in _list_targets(spec):
-        meant = _find_side(spec, rest.replace(digits[0], ""), _list_targets(spec))
+        meant = _find_named_side(spec, rest.replace(digits[0], ""))
         return [(lefts[0], digits[0])] if meant in {"", digits[0]} else []
     if lefts:
         right = rest if rest in _list_targets(spec) else _find_side(spec, rest, _list_targets(spec))
@@ -332,7 +337,7 @@ def _find_numbered_pair(spec: MatchSpec, words: str, number: str) -> tuple[str, 
     """Return the pair of ``V = 0 gives black (3)``; None if its words name no or another side."""
     label, _, rest = words.strip().partition(" ")
     named = label.strip(":") if label.strip(":") in spec.pairs else ""
-    meant = _find_side(spec, rest if named else words, _list_targets(spec))
+    meant = _find_named_side(spec, rest if named else words)
     if named:
         return (named, number) if meant in {"", number} and not is_denied(rest) else None
     left = _find_side(spec, words, list(spec.pairs))
@@ -366,6 +371,16 @@ def _find_side(spec: MatchSpec, words: str, labels: Sequence[str]) -> str:
 
 FEWEST_NAMED = 2
 """Left sides that are named, so that the last one need not be."""
+
+
+def _find_named_side(spec: MatchSpec, words: str) -> str:
+    """Return the label of the right side whose own words these are; empty for none or several."""
+    labels = _list_targets(spec)
+    listed = ([said.get(label, "") for label in labels] for said in (spec.words, *spec.said))
+    places = {find_wording(words, wordings, all_named=True) for wordings in listed} - {0}
+    return labels[places.pop() - 1] if len(places) == 1 else ""
+
+
 MOST_WORDS = 12
 """Words of a pair that nothing parts."""
 _NUMBERED_SIDE = WordPattern(r"(?:(?:«pictures»|«choices.numbered») )?(\d)", re.IGNORECASE)

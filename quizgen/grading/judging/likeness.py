@@ -20,7 +20,7 @@ from quizgen.grading.judging.spelling import (
 from quizgen.grading.judging.statements import Scale, find_scales, is_form_of, list_clause_words
 from quizgen.grading.reading.number_words import list_number_words
 from quizgen.locale import cache_words
-from quizgen.locale.word_patterns import list_tables, list_words
+from quizgen.locale.word_patterns import list_tables, list_words, set_of_words
 
 LOOSE_SCALES = frozenset({"sameness", "totality", "loss"})
 """Scales of words that often say little: *all*, *remain*."""
@@ -160,12 +160,18 @@ def _is_slip(word: str, other: str) -> bool:
     return bool(near) and not is_another_word(word, other, ())
 
 
+def _is_word(word: str) -> bool:
+    """Return whether it is letters, and no number or a sign with one."""
+    return word[:1].isalpha() and not any(map(str.isdigit, word))
+
+
 def _read_number(word: str) -> int:
     """Return the whole number that a word is or says; -1 if it is none."""
     if word.isdecimal():
         return int(word)
     known = list_number_words()
-    return known.get(word, next((known[one] for one in find_translation(word) if one in known), -1))
+    said = (sense[0] for sense in list_senses(word) if len(sense) == 1)
+    return known.get(word, next((known[one] for one in said if one in known), -1))
 
 
 @partial(cache_words, most=65536)
@@ -173,7 +179,7 @@ def _says_the_same(word: str, other: str) -> bool:
     """Return whether a word says the same as another one, or is its beginning."""
     if _is_same_word(word, other):
         return True
-    if len(word) >= BEGINNING and other.startswith(word) and word.isalpha():
+    if len(word) >= BEGINNING and other.startswith(word) and _is_word(word):
         return True
     return any(
         any(_is_same_word(word, one) for one in group)
@@ -216,7 +222,7 @@ def _is_enough(
     """
     if len(strangers) > len(telling) + 1:
         return False
-    worded = [word for word in telling if word.isalpha() and _read_number(word) < 0]
+    worded = [word for word in telling if _is_word(word) and _read_number(word) < 0]
     longest = max(
         (len(one) for word in worded for one in (word, *find_translation(word))), default=0
     )
@@ -244,14 +250,23 @@ def _agree(said: Sequence[str], strangers: Sequence[str], meant: Clauses) -> boo
     }
     if not touched:
         return True
-    denials = list_clause_words("denials") | list_clause_words("ahead")
-    if bool(spoken & denials) != bool(touched & denials):
+    if _denies(spoken) != _denies(touched):
         return False
     if any(word in list_clause_words("doubts") for word in strangers):
         return False
-    if any(any(c.isdigit() for c in word) or _read_number(word) > 1 for word in strangers):
+    if any(not _is_word(word) or _read_number(word) > 1 for word in strangers):
         return False
     return _point_one_way(spoken, strangers, {word for clause in meant for word in clause})
+
+
+def _denies(words: Collection[str]) -> bool:
+    """Return whether one of some words denies, in any language."""
+    denials = (
+        list_clause_words("denials") | list_clause_words("ahead") | set_of_words("wordings.denying")
+    )
+    return any(
+        word in denials or any({*sense} <= denials for sense in list_senses(word)) for word in words
+    )
 
 
 def _point_one_way(

@@ -104,12 +104,12 @@ def find_wording_in(
     German words that are no language of the bank are tried as what they say in English. Places
     that differ between languages mean none.
     """
-    spoken = {*_split_words(typed)}
-    if any(_is_shared(spoken, wordings) for wordings in languages):
-        return 0
     verbatim = {find_verbatim(typed, wordings) for wordings in languages} - {0}
     if len(verbatim) == 1:
         return verbatim.pop()
+    spoken = {*_split_words(typed)}
+    if any(_is_shared(spoken, wordings) for wordings in languages):
+        return 0
     found = {find_wording(typed, wordings, all_named=all_named) for wordings in languages} - {0}
     if not found and len(languages) > 1:  # people mix them: ``অনেক বেশি dark``
         mixed = [" ".join(texts) for texts in zip(*languages, strict=True)]
@@ -137,7 +137,8 @@ def find_verbatim(typed: str, wordings: Sequence[str]) -> int:
     They must not be words alone, which other words around them may turn, nor a number in another.
     """
     piece = _squeeze(typed)
-    if len(piece) < LEAST_TOLD or not _SIGN.search(piece):
+    least = LEAST_TOLD - piece.isupper()
+    if len(piece) < least or not (_SIGN.search(piece) or piece.isupper()):
         return 0
     shape = re.compile(rf"(?<![\w.]){re.escape(piece)}(?![\w.]|[*/^]|\()")
     found = [place for place, one in enumerate(wordings, 1) if shape.search(_squeeze(one))]
