@@ -25,7 +25,7 @@ from quizgen.grading.judging.spelling import (
     is_another_word,
     typo_distance,
 )
-from quizgen.locale import list_languages, load_words
+from quizgen.locale import cache_words, list_languages, load_words
 
 Meaning = Literal["said", "half", "denied", "open"]
 """What a clause does with an idea; ``open`` where its words are there and its sign is not sure."""
@@ -197,6 +197,17 @@ def _vocabulary() -> _Vocabulary:
     )
 
 
+@cache_words
+def list_clause_words(name: str) -> frozenset[str]:
+    """Return the single words of a list of clauses in all languages, folded: ``denials``."""
+    return frozenset(
+        fold_word(word)
+        for lang in list_languages()
+        for word in load_words(lang, "statements")["clauses"].get(name, ())
+        if " " not in word
+    )
+
+
 def _group_scales(ends: Iterable[tuple[str, Scale]]) -> dict[str, tuple[Scale, ...]]:
     """Return each single word with the ends of scales that it stands for."""
     found: dict[str, tuple[Scale, ...]] = {}
@@ -224,7 +235,7 @@ def _fold_row(text: str) -> tuple[str, ...]:
 
 
 @lru_cache(maxsize=8192)
-def _scales_of(word: str, *, slips: bool = True) -> tuple[Scale, ...]:
+def find_scales(word: str, *, slips: bool = True) -> tuple[Scale, ...]:
     """Return the ends of scales that a word stands for, with ``slips`` those of the fingers too."""
     known = _vocabulary()
     if word in known.scales:
@@ -555,7 +566,7 @@ def _read_word(word: str) -> _Item | None:
     known = _vocabulary()
     if word in known.denials | known.ahead | known.than | known.than_behind:
         return None
-    scales = _scales_of(word, slips=False)
+    scales = find_scales(word, slips=False)
     if scales:
         return _Item(scales=scales)
     if word in known.fillers or word in known.breaks or not word[0].isalnum():
@@ -770,7 +781,7 @@ class Statement:
             elif word in known.ahead and not _is_condition(words, index):
                 clause.ahead.append(place)
             if word in known.than and any(
-                name == "amount" for one in words[:index] for name, _ in _scales_of(one)
+                name == "amount" for one in words[:index] for name, _ in find_scales(one)
             ):
                 clause.compared |= set(clause.places[index + 1 :])
             elif word in known.than_behind and index:
@@ -1149,7 +1160,7 @@ class Statement:
             rows = tuple(
                 scale for row, scale in _vocabulary().phrases if self._has_loose_row(place, row)
             )
-            self._scales[place] = rows or _scales_of(word, slips=word not in self._words.own)
+            self._scales[place] = rows or find_scales(word, slips=word not in self._words.own)
         return self._scales[place]
 
     def _has_loose_row(self, place: int, row: Sequence[str]) -> bool:

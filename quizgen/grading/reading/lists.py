@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from quizgen.grading.reading.labels import NAME
 from quizgen.grading.reading.normalise import LONGEST, LONGEST_PROSE, normalise_typed
 from quizgen.grading.reading.source_map import SourceText
+from quizgen.locale.word_patterns import WordPattern
 from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.notation.names import FUNCTIONS
 
@@ -16,7 +17,7 @@ _HARD = re.compile(r"[;|\n]")
 _COMMA = re.compile(r",")
 _SLASH = re.compile(r" / ")
 _BLANK_BEFORE = re.compile(r" +(?=[,;|])")
-_JOINING = re.compile(r"[,;]? (?:and|und|&|এবং|ও|আর) ")
+_JOINING = WordPattern(r"[,;]? (?:«and»|&) ")
 _UNIT_BEHIND = re.compile(r"[^;,|\d(\[{]*| ?[\[(][^;,|\d\[\](){}]+[\])]")
 _NAMES = re.compile(rf"\(? ?({NAME}(?: ?[,;|] ?{NAME})+) ?\)? ?(?::=|[=:≈]) ?(?=\S)")
 _NAME_ENDS = re.compile("[,;|]")
