@@ -346,8 +346,7 @@ def explain_key(spec: ComplexSpec, _lang: str) -> TextOrInlines:
     number = _typeset_number(spec)
     if not spec.unit:
         return number
-    from quizgen.bank.markdown import PlainText
-    from quizgen.question.inlines import to_inlines
+    from quizgen.typeset.prose import PlainText, to_inlines
 
     number = to_inlines(number)
     unit = f"\N{NO-BREAK SPACE}{format_unit(spec.unit)}"

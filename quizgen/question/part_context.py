@@ -25,6 +25,7 @@ from quizgen.kinds.contract import (
     asked_quantities,
 )
 from quizgen.locale import localise_numbers
+from quizgen.locale.word_patterns import set_of_words
 from quizgen.maths.numbers import (
     format_exact,
     format_rounded,
@@ -313,7 +314,7 @@ class VariantPart(PartContext):
 def _is_listed(after: object, following: object) -> bool:
     """Return whether another name follows at once: what stands before is then said of both."""
     between = after.text.strip(" ,;") if isinstance(after, PlainText) else "?"
-    return isinstance(following, InlineFormula) and between in {"", "and", "ও", "এবং"}
+    return isinstance(following, InlineFormula) and between in {"", *set_of_words("and")}
 
 
 @lru_cache(maxsize=128)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Collection, Sequence
-from functools import partial
+from functools import lru_cache, partial
 from itertools import pairwise
 
 from quizgen.grading.judging.likeness import find_likest, list_senses, tells_all

@@ -67,7 +67,10 @@ def replace_number_word(text: str) -> str:
     return f"{found[0]}{text[found[1] :]}" if found else text
 
 
-_SPOKEN = re.compile(r" ?-?((?:[^\W\d_]|[\u0980-\u09ff])+)")
+_SPOKEN = WordPattern(
+    r" ?-?(«numbers.larger»(?![-\w\u0980-\u09ff])|(?:[^\W\d_]|[\u0980-\u09ff])+)", re.IGNORECASE
+)
+"""One word, or several that are one number: ``quatre-vingt-dix``."""
 _AND_A_HALF = WordPattern(r" «numbers.and-a-half»(?!\w)", re.IGNORECASE)
 _POINT = WordPattern(r"(?:^| )«point» (?=[^\W\d])", re.IGNORECASE)
 
