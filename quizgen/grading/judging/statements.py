@@ -39,6 +39,9 @@ LOOSE = 3
 SHORTEST = 4
 """Letters of a word that others may go on from; fewer in scripts that write fewer letters."""
 
+LONE = 3
+"""Most things that an example says, its denial counted, which is about a single one."""
+
 _SYMBOLS = {"²": "^2", "³": "^3", "√": "sqrt ", "∝": "~", "∼": "~", "×": "x", "·": "*", "−": "-",
             "σ": "sigma", "λ": "lambda", "µ": "u", "μ": "mu", "Σ": "sigma", "≈": "~", "⁄": "/",
             "’": "'", "→": ">", "∞": "infinity"}  # fmt: skip
@@ -370,8 +373,8 @@ class Example:
 
     @property
     def is_bare(self) -> bool:
-        """Whether it says how much, or how bright, and not what; of an order of two, both do."""
-        return len(self.steps) == 1 and all(item.is_general for item in self.steps[0])
+        """Whether it says how much, or how bright, and nothing else."""
+        return self.size == 1 and bool(self.scales)
 
 
 class Subject:
@@ -527,7 +530,9 @@ def _has_row(
         if place >= len(tokens):
             return False
         typed = tokens[place].text
-        if typed != word and (exactly or not is_form_of(typed, word, slips=typed not in known)):
+        if typed != word and (
+            exactly or not is_form_of(typed, word, slips=known.isdisjoint(_stems(typed)))
+        ):
             return False
         place += 1
     return True
@@ -811,7 +816,7 @@ class Statement:
     def know(self, examples: Iterable[Example]) -> None:
         """Take the words of examples for words of their own, none of which misspells another."""
         rows = (row for one in examples for step in one.steps for item in step for row in item.rows)
-        self._known = frozenset(word for row in rows for word in row)
+        self._known = frozenset(stem for row in rows for word in row for stem in _stems(word))
 
     def find(
         self,
@@ -890,7 +895,7 @@ class Statement:
         }
         wanted -= {(name, -sign) for name, sign in wanted}
         if apart and not any(item.scales for step in example.steps for item in step):
-            wanted |= {("amount", 1)}
+            wanted |= {("amount", 1), ("amount", -1)}
         return bool(wanted) and any(
             (name, -sign) in wanted
             for clause in self.clauses[evidence.first : evidence.last + 1]
@@ -1079,7 +1084,9 @@ class Statement:
             rows = tuple(
                 scale for row, scale in _vocabulary().phrases if self._has_loose_row(place, row)
             )
-            self._scales[place] = rows or _scales_of(word, slips=word not in self._known)
+            self._scales[place] = rows or _scales_of(
+                word, slips=self._known.isdisjoint(_stems(word))
+            )
         return self._scales[place]
 
     def _has_loose_row(self, place: int, row: Sequence[str]) -> bool:
@@ -1132,7 +1139,7 @@ class Statement:
                 at
                 for at, typed in self._firsts
                 if typed == word
-                or (not exactly and is_form_of(typed, word, slips=typed not in known))
+                or (not exactly and is_form_of(typed, word, slips=known.isdisjoint(_stems(typed))))
             ]
         return self._starts[word, exactly]
 
@@ -1170,7 +1177,10 @@ class Statement:
         opens_with = self.tokens[clause.places[0]].text
         contrast = example.denied and index and opens_with in {"not", "nicht"}
         unsure = (
-            sign == 0  # or *it is this, not that*: that there is no *that* is not said
+            sign == 0
+            or self._denies_elsewhere(
+                clause, places, example
+            )  # or *it is this, not that*: that there is no *that* is not said
             or denied is None
             or (contrast and clause.sentence == self.clauses[index - 1].sentence)
             or self._has_degree(clause, places, example)
@@ -1181,7 +1191,9 @@ class Statement:
             if sign < 0 and self._belongs_elsewhere(clause, places):
                 return
             flips = (sign < 0) ^ bool(denied) ^ example.denied
-            lone = example.denied and example.size <= 3  # *not linear* does not deny every *linear*
+            lone = (
+                example.denied and example.size <= LONE
+            )  # *not linear* does not deny every *linear*
             if flips and (example.meaning == "denied" or (lone and not denied)):
                 return
             meaning = "denied" if flips else example.meaning
@@ -1214,6 +1226,16 @@ class Statement:
             count = sum(any(place > at for place in places) for at in heads)
         count += sum(any(place > at for place in places) for at in clause.ahead)
         return None if count > 1 else bool(count)
+
+    def _denies_elsewhere(self, clause: _Clause, places: tuple[int, ...], example: Example) -> bool:
+        """Return whether a clause denies, and not the one thing that an example denies.
+
+        *A probability cannot be above 1* does not say that something is no probability.
+        """
+        heads = clause.denials + clause.ahead
+        if not example.denied or example.size > LONE or not heads:
+            return False
+        return all(at > places[-1] + 1 for at in heads)
 
     def _has_degree(self, clause: _Clause, places: tuple[int, ...], example: Example) -> bool:
         """Return whether a word of low degree, such as ``less``, stands before one that is meant.
