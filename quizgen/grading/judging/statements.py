@@ -243,7 +243,7 @@ def _scales_of(word: str, *, slips: bool = True) -> tuple[Scale, ...]:
     near += [
         scale
         for other, scales in known.scales.items()
-        if len(other) > SHORTEST and _is_slip(word, other)
+        if len(other) > SHORTEST + 1 and _is_slip(word, other)
         for scale in scales
     ]
     return tuple(dict.fromkeys(near))
@@ -954,7 +954,8 @@ class Statement:
         single: set[int] = set()
         for index in range(len(self.clauses)):
             fit = self._fit(items, self._clause_tokens[index], example)
-            if fit:
+            clause = self.clauses[index]
+            if fit and (clause.corrects or not set(fit[1]).isdisjoint(clause.places)):
                 single.add(index)
                 yield from self._weigh(example, index, fit)
         for width in range(2, WIDEST + 1):
