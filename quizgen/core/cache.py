@@ -22,8 +22,8 @@ LARGEST = 1_000_000
 """Bytes of the largest thing that is kept."""
 OLD = 90 * 86400.0
 """Seconds after which a thing is swept away: it may be what nothing leads to any more."""
-SWEPT, PAUSE = ".swept", 86400.0
-"""File whose time says when a folder was last searched for old things, and seconds until again."""
+SWEPT, PAUSE = ".{}-swept", 86400.0
+"""File whose time says when the folder beside it was last searched, and seconds until again."""
 _SUM = 64
 
 
@@ -126,7 +126,7 @@ def remove_stale(folder: Path) -> None:
 
     To look through a folder that many versions have written to takes seconds.
     """
-    swept, now = folder / SWEPT, time.time()
+    swept, now = folder.with_name(SWEPT.format(folder.name)), time.time()
     if swept.exists() and 0 <= now - swept.stat().st_mtime < PAUSE:
         return
     swept.touch()

@@ -40,6 +40,9 @@ LOOSE = 3
 SHORTEST = 4
 """Letters of a word that others may go on from; fewer in scripts that write fewer letters."""
 
+LONE = 3
+"""Most things that an example says, its denial counted, which is about a single one."""
+
 _SYMBOLS = {"²": "^2", "³": "^3", "√": "sqrt ", "∝": "~", "∼": "~", "×": "x", "·": "*", "−": "-",
             "σ": "sigma", "λ": "lambda", "µ": "u", "μ": "mu", "Σ": "sigma", "≈": "~", "⁄": "/",
             "’": "'", "→": ">", "∞": "infinity"}  # fmt: skip
@@ -252,7 +255,7 @@ def find_scales(word: str, *, slips: bool = True) -> tuple[Scale, ...]:
     near += [
         scale
         for other, scales in known.scales.items()
-        if len(other) > SHORTEST and _is_slip(word, other)
+        if len(other) > SHORTEST + 1 and _is_slip(word, other)
         for scale in scales
     ]
     return tuple(dict.fromkeys(near))
@@ -374,8 +377,8 @@ class Example:
 
     @property
     def is_bare(self) -> bool:
-        """Whether it says how much, or how bright, and not what; of an order of two, both do."""
-        return len(self.steps) == 1 and all(item.is_general for item in self.steps[0])
+        """Whether it says how much, or how bright, and nothing else."""
+        return self.size == 1 and bool(self.scales)
 
 
 class Subject:
@@ -460,9 +463,14 @@ class ExampleWords:
     """
 
     def __init__(self, examples: Sequence[Example] = (), mistakes: Sequence[Example] = ()) -> None:
-        self.own = frozenset(word for row in _iter_rows(examples) for word in row)
+        rows = _iter_rows(examples)
+        self.own = frozenset(stem for row in rows for word in row for stem in _stems(word))
         self._begins = sorted({row[0] for row in _iter_rows((*examples, *mistakes))})
         self._found: dict[str, tuple[str, ...]] = {}
+
+    def has_own(self, typed: str) -> bool:
+        """Return whether a typed word is a form of one of the examples: no slip of another."""
+        return not self.own.isdisjoint(_stems(typed))
 
     def find_begun(self, typed: str) -> tuple[str, ...]:
         """Return the words that rows begin with and of which a typed word is a form."""
@@ -470,7 +478,7 @@ class ExampleWords:
         if found is None:
             if len(self._found) >= MOST_TYPED:
                 self._found.clear()
-            slips = typed not in self.own
+            slips = not self.has_own(typed)
             found = tuple(word for word in self._begins if is_form_of(typed, word, slips=slips))
             self._found[typed] = found
         return found
@@ -592,7 +600,9 @@ def _has_row(
         if place >= len(tokens):
             return False
         typed = tokens[place].text
-        if typed != word and (exactly or not is_form_of(typed, word, slips=typed not in known)):
+        if typed != word and (
+            exactly or not is_form_of(typed, word, slips=known.isdisjoint(_stems(typed)))
+        ):
             return False
         place += 1
     return True
@@ -959,7 +969,7 @@ class Statement:
         }
         wanted -= {(name, -sign) for name, sign in wanted}
         if apart and not any(item.scales for step in example.steps for item in step):
-            wanted |= {("amount", 1)}
+            wanted |= {("amount", 1), ("amount", -1)}
         return bool(wanted) and any(
             (name, -sign) in wanted
             for clause in self.clauses[evidence.first : evidence.last + 1]
@@ -1018,7 +1028,8 @@ class Statement:
         single: set[int] = set()
         for index in range(len(self.clauses)):
             fit = self._fit(items, self._clause_tokens[index], example)
-            if fit:
+            clause = self.clauses[index]
+            if fit and (clause.corrects or not set(fit[1]).isdisjoint(clause.places)):
                 single.add(index)
                 yield from self._weigh(example, index, fit)
         for width in range(2, WIDEST + 1):
@@ -1148,7 +1159,7 @@ class Statement:
             rows = tuple(
                 scale for row, scale in _vocabulary().phrases if self._has_loose_row(place, row)
             )
-            self._scales[place] = rows or find_scales(word, slips=word not in self._words.own)
+            self._scales[place] = rows or find_scales(word, slips=not self._words.has_own(word))
         return self._scales[place]
 
     def _has_loose_row(self, place: int, row: Sequence[str]) -> bool:
@@ -1233,7 +1244,10 @@ class Statement:
         opens_with = self.tokens[clause.places[0]].text
         contrast = example.denied and index and opens_with in list_words("spelling.not")
         unsure = (
-            sign == 0  # or *it is this, not that*: that there is no *that* is not said
+            sign == 0
+            or self._denies_elsewhere(
+                clause, places, example
+            )  # or *it is this, not that*: that there is no *that* is not said
             or denied is None
             or (contrast and clause.sentence == self.clauses[index - 1].sentence)
             or self._has_degree(clause, places, example)
@@ -1244,7 +1258,9 @@ class Statement:
             if sign < 0 and self._belongs_elsewhere(clause, places):
                 return
             flips = (sign < 0) ^ bool(denied) ^ example.denied
-            lone = example.denied and example.size <= 3  # *not linear* does not deny every *linear*
+            lone = (
+                example.denied and example.size <= LONE
+            )  # *not linear* does not deny every *linear*
             if flips and (example.meaning == "denied" or (lone and not denied)):
                 return
             meaning = "denied" if flips else example.meaning
@@ -1277,6 +1293,16 @@ class Statement:
             count = sum(any(place > at for place in places) for at in heads)
         count += sum(any(place > at for place in places) for at in clause.ahead)
         return None if count > 1 else bool(count)
+
+    def _denies_elsewhere(self, clause: _Clause, places: tuple[int, ...], example: Example) -> bool:
+        """Return whether a clause denies, and not the one thing that an example denies.
+
+        *A probability cannot be above 1* does not say that something is no probability.
+        """
+        heads = clause.denials + clause.ahead
+        if not example.denied or example.size > LONE or not heads:
+            return False
+        return all(at > places[-1] + 1 for at in heads)
 
     def _has_degree(self, clause: _Clause, places: tuple[int, ...], example: Example) -> bool:
         """Return whether a word of low degree, such as ``less``, stands before one that is meant.
