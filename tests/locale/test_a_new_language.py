@@ -124,7 +124,7 @@ blankaj = "w"
 "senŝanĝaj" = "0"
 
 [said]
-flava = ["yellow"]
+yellow = ["flava"]
 
 [around]
 before = ["la respondo estas"]

@@ -6,8 +6,9 @@ import operator
 import re
 import unicodedata
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache, lru_cache, partial
+from typing import NamedTuple
 
 from quizgen.locale import cache_words
 from quizgen.locale.word_patterns import WordPattern, list_tables, list_words
@@ -45,30 +46,77 @@ def _list_variants() -> tuple[tuple[str, str], ...]:
     return tuple((old, new) for old, _, new in pairs)
 
 
+class _Words(NamedTuple):
+    """The words of a language with what they say in English, and how its words are put together."""
+
+    said: dict[str, tuple[str, ...]]
+    endings: tuple[str, ...]
+    plain: tuple[str, ...]
+    links: tuple[str, ...]
+
+
 @cache_words
-def load_translations() -> dict[str, tuple[str, ...]]:
-    """Return common words of other languages, folded, with what they say in English."""
-    return {
-        fold_word(word): tuple(said)
-        for table in list_tables("said")
-        for word, said in table.items()
-    }
+def _load_known_words() -> tuple[_Words, ...]:
+    """Return the words of each language, folded, with what they say in English."""
+    tables = zip(list_tables("said"), list_tables("spelling"), strict=True)
+    return tuple(_read_known_words(said, spelling) for said, spelling in tables)
 
 
+def _read_known_words(
+    table: Mapping[str, Sequence[str]], spelling: Mapping[str, Sequence[str]]
+) -> _Words:
+    """Return the words of one language, and its endings from the longest."""
+    said: dict[str, list[str]] = {}
+    for english, words in table.items():
+        for word in words:
+            said.setdefault(fold_word(word), []).append(english)
+    return _Words(
+        {word: tuple(senses) for word, senses in said.items()},
+        tuple(sorted(map(fold_word, spelling["said-endings"]), key=len, reverse=True)),
+        ("", *spelling["dictionary-endings"]),
+        tuple(spelling["links"]),
+    )
+
+
+@partial(cache_words, most=4096)
 def find_translation(word: str) -> tuple[str, ...]:
-    """Return what a word says in English, maybe with an adjective's ending; none if unknown."""
-    folded, known = fold_word(word), load_translations()
-    plain = (known[word] for word in _list_plain_forms(folded) if word in known)
-    return known.get(folded) or next(plain, ())
+    """Return what a word of another language says in English, each of its senses; none if unknown.
+
+    It may have an ending of its language, and be put together of two words where that is done.
+    """
+    folded, tables = fold_word(word), _load_known_words()
+    found = (
+        find(words, folded) for find in (_find_with_ending, _find_compound) for words in tables
+    )
+    return next(filter(None, found), ())
 
 
-def _list_plain_forms(word: str) -> list[str]:
-    """Return an adjective without its ending, and with the one that dictionaries have."""
-    stem = _ADJECTIVE.sub("", word)
-    return [stem, *(f"{stem}{ending}" for ending in list_words("spelling.dictionary-endings"))]
+def _find_with_ending(words: _Words, folded: str) -> tuple[str, ...]:
+    """Return the senses of a word, as it stands or without an ending; none if unknown."""
+    if folded in words.said:
+        return words.said[folded]
+    for ending in words.endings:
+        stem = folded.removesuffix(ending)
+        plain = (f"{stem}{end}" for end in words.plain if f"{stem}{end}" in words.said)
+        found = next(plain, "") if stem != folded and len(stem) >= LEAST_STEM else ""
+        if found:
+            return words.said[found]
+    return ()
 
 
-_ADJECTIVE = WordPattern(r"(?<=.{4})«spelling.adjective-endings»$")
+def _find_compound(words: _Words, folded: str) -> tuple[str, ...]:
+    """Return the sense of two known words written as one; none where that is not done."""
+    for cut in range(LEAST_STEM, len(folded) - LEAST_STEM + 1) if words.links else ():
+        last = _find_with_ending(words, folded[cut:])
+        stems = (folded[:cut].removesuffix(link) for link in words.links)
+        first = next((words.said[stem] for stem in stems if stem in words.said), ())
+        if first and last:
+            return (f"{first[0]} {last[0]}",)
+    return ()
+
+
+LEAST_STEM = 4
+"""Letters that are left of a word whose ending does not count."""
 
 
 MOST = 2

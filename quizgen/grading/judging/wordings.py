@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Sequence
-from functools import partial
+from collections.abc import Collection, Sequence
+from functools import lru_cache, partial
 from itertools import pairwise
 
+from quizgen.grading.judging.likeness import find_likest, list_senses, tells_all
 from quizgen.grading.judging.spelling import (
     allowed_typos,
     find_translation,
@@ -30,6 +31,8 @@ _ROOT = re.compile(r"(?:sqrt|√) ?\(? ?(\d+) ?\)?")
 _SHARE = WordPattern(r"\b«wordings.shares»\b")
 _SIGNS = (
     (WordPattern(r"∞|(?<!\S)«wordings.infinity»(?!\S)"), "infinity"),
+    (re.compile(r"(?<![^\W_])([a-z])_(?=\w)"), r"\1"),
+    (re.compile(r"(?<=\d) ?\.{2,}(?=[-\d ])"), " to "),
     (re.compile(r"(?<![\d\w])\.(?=\d)"), "0."),
     (re.compile(r"\b50 ?%"), "1/2"),
     (re.compile(r"\b25 ?%"), "1/4"),
@@ -65,10 +68,16 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
     if called:
         return called
     known = frozenset().union(*listed)
-    meant = frozenset(_find_known_word(word, known) for word in _join_compounds(spoken, known))
+    meant = frozenset(
+        one for word in _join_compounds(spoken, known) for one in _find_known_words(word, known)
+    )
     hits = [place for place, words in enumerate(listed, 1) if _own_words(words, listed) & meant]
     if len(hits) != 1:
-        hits = _find_nearest(meant & known, listed)
+        hits = [
+            place
+            for place in _find_nearest(meant & known, listed)
+            if len(listed[place - 1]) <= 2 * len(meant & known)
+        ]
     if len(hits) != 1:
         return 0
     wanted = listed[hits[0] - 1]
@@ -95,13 +104,65 @@ def find_wording_in(
     German words that are no language of the bank are tried as what they say in English. Places
     that differ between languages mean none.
     """
+    verbatim = {find_verbatim(typed, wordings) for wordings in languages} - {0}
+    if len(verbatim) == 1:
+        return verbatim.pop()
+    spoken = {*_split_words(typed)}
+    if any(_is_shared(spoken, wordings) for wordings in languages):
+        return 0
     found = {find_wording(typed, wordings, all_named=all_named) for wordings in languages} - {0}
     if not found and len(languages) > 1:  # people mix them: ``অনেক বেশি dark``
         mixed = [" ".join(texts) for texts in zip(*languages, strict=True)]
         found = {find_wording(typed, mixed, all_named=all_named)} - {0}
     for said in () if found else list_translated(typed):
         found |= {find_wording(said, languages[0], all_named=all_named)} - {0}
-    return found.pop() if len(found) == 1 else 0
+    if len(found) == 1:
+        return found.pop()
+    split = [
+        [[_split_words(part) for part in _CLAUSE.split(wording)] for wording in wordings]
+        for wordings in languages
+    ]
+    return find_likest(_split_words(typed), split, all_named=all_named)
+
+
+def says_whole(typed: str, wordings: Sequence[str]) -> bool:
+    """Return whether an answer has all words of one of some wordings, or words like them."""
+    said = _split_words(typed)
+    return any(tells_all(said, _split_words(wording)) for wording in wordings)
+
+
+def find_verbatim(typed: str, wordings: Sequence[str]) -> int:
+    """Return the place of the only wording that has these signs in it, ``y = -x``; 0 if none is.
+
+    They must not be words alone, which other words around them may turn, nor a number in another.
+    """
+    piece = _squeeze(typed)
+    least = LEAST_TOLD - piece.isupper()
+    if len(piece) < least or not (_SIGN.search(piece) or piece.isupper()):
+        return 0
+    shape = re.compile(rf"(?<![\w.]){re.escape(piece)}(?![\w.]|[*/^]|\()")
+    found = [place for place, one in enumerate(wordings, 1) if shape.search(_squeeze(one))]
+    same = [place for place, one in enumerate(wordings, 1) if _squeeze(one) == piece]
+    return next((some[0] for some in (same, found) if len(some) == 1), 0)
+
+
+def _squeeze(text: str) -> str:
+    """Return a text as its signs are compared: without blanks around them, powers as ``^``."""
+    for old, new in (("−", "-"), ("²", "^2"), ("³", "^3"), ("**", "^"), ("·", "*"), ("√", "sqrt")):
+        text = text.replace(old, new)
+    text = re.sub(r"\|([^|\s]+)\|", r"abs(\1)", text.strip(" .!?।"))
+    return re.sub(r" ?([-+*/^=<>(),;:|]) ?", r"\1", text)
+
+
+_SIGN = re.compile(r"[=^(_<>+*/]|\w\.\w|[a-z][A-Z]|\d-?[A-Za-z]")
+"""What words do not have: a sign of a formula or of a program."""
+_CLAUSE = re.compile(r"[:;,.](?= |$)")
+
+
+def _is_shared(said: Collection[str], wordings: Sequence[str]) -> bool:
+    """Return whether an answer is one word that several wordings have, and none is just that."""
+    split, said = [{*_split_words(one)} for one in wordings], {*said}
+    return len(said) == 1 and said not in split and sum(said <= one for one in split) > 1
 
 
 def share_words(typed: str, wordings: Sequence[str]) -> bool:
@@ -134,13 +195,14 @@ LEAST_TOLD = 3
 """Letters of a wording that can be recognised in a sentence."""
 
 
-def _list_names_of(wording: str) -> set[frozenset[str]]:
+@lru_cache(maxsize=4096)
+def _list_names_of(wording: str) -> frozenset[frozenset[str]]:
     """Return the words of a wording, and of what stands for all of it beside a comma or a bracket.
 
     ``the long ones, 600 to 700 nm (red)`` has three names.
     """
     parts = _APART.split(wording) if _APART.search(wording) else []
-    return {frozenset(_split_words(part)) for part in (wording, *parts)} - {frozenset()}
+    return frozenset(frozenset(_split_words(part)) for part in (wording, *parts)) - {frozenset()}
 
 
 _APART = re.compile(r"(?<!\d)[,;](?= )|(?<=\d)[,;](?= [^\W\d])|[()]|:(?= )")
@@ -173,7 +235,7 @@ def _find_by_name(typed: str, wordings: Sequence[str]) -> int:
         ],
     ):
         if len(found) == 1:
-            return found[0]
+            return 0 if _is_shared(said & known, wordings) else found[0]
     return 0
 
 
@@ -192,7 +254,18 @@ def _find_same_pieces(typed: str, wordings: Sequence[str]) -> list[int]:
     said = _list_pieces(typed)
     if len(said) < FEWEST_PIECES:
         return []
-    return [place for place, one in enumerate(wordings, 1) if _list_pieces(one) == said]
+    listed = [_list_pieces(one) for one in wordings]
+    return [place for place, pieces in enumerate(listed, 1) if pieces == said] or [
+        place for place, pieces in enumerate(listed, 1) if _are_within(said, pieces)
+    ]
+
+
+def _are_within(said: frozenset[frozenset[str]], pieces: frozenset[frozenset[str]]) -> bool:
+    """Return whether each piece of a wording has just one of an answer in it."""
+    within = {one: [piece for piece in pieces if one and one <= piece] for one in said}
+    return len(said) == len(pieces) == len(
+        {*(p for some in within.values() for p in some)}
+    ) and all(len(some) == 1 for some in within.values())
 
 
 def _list_pieces(text: str) -> frozenset[frozenset[str]]:
@@ -248,6 +321,16 @@ def _denies(words: frozenset[str]) -> bool:
     return bool(words & set_of_words("wordings.denying"))
 
 
+def _find_known_words(word: str, known: frozenset[str]) -> frozenset[str]:
+    """Return the known words that a typed one is, or says in another language; else itself."""
+    found = _find_known_word(word, known)
+    if found in known:
+        return frozenset({found})
+    senses = [frozenset(_split_words(" ".join(said))) for said in list_senses(word)]
+    told = next((sense for sense in senses if sense and sense <= known), None)
+    return told or next(filter(None, senses), frozenset({found}))
+
+
 def _find_known_word(word: str, known: frozenset[str]) -> str:
     """Return the known word that a typed one is, maybe with slips in spelling; else itself.
 
@@ -255,7 +338,7 @@ def _find_known_word(word: str, known: frozenset[str]) -> str:
     """
     if word in known:
         return word
-    number = list_number_words().get(word, -1)
+    number = list_number_words().get(word, "")
     spelt = (
         [one for one in known if list_number_words().get(one) == int(word)]
         if word.isdecimal()
