@@ -156,7 +156,7 @@ def _list_contrasts() -> tuple[re.Pattern[str], ...]:
             sentence.replace("{wrong}", f"(?:{_VALUE})").replace("{right}", f"(?P<right>{_VALUE})"),
             re.IGNORECASE,
         )
-        for sentence in _list_phrases("contrast", "sentences")
+        for sentence in _list_phrases("contrasts", "sentences")
     )
 
 
