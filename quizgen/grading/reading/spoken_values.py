@@ -56,9 +56,9 @@ def write_spoken_value(text: str) -> str:
     text = _IN_BASE.sub(lambda m: str(int(m[0], 0)), text)
     share = r"(?<![\w./⁄])(?:<shares one> )?(\d+)(?: ?-?<shares endings>)(?![^\W\d_])"
     text = compile_spoken(share).sub(r"1/\1", text)
-    text = compile_spoken(rf"(?<![\d.,])(\d+) <mixed half>{_END}").sub(r"\1.5", text)
-    text = compile_spoken(r"(?<![\d.,])(\d+) <mixed joint> (?=\d+ ?/ ?\d)").sub(r"\1 ", text)
-    for row in _list_phrases("mixed", "words"):
+    text = compile_spoken(rf"(?<![\d.,])(\d+) <halves half>{_END}").sub(r"\1.5", text)
+    text = compile_spoken(r"(?<![\d.,])(\d+) <halves joint> (?=\d+ ?/ ?\d)").sub(r"\1 ", text)
+    for row in _list_phrases("halves", "words"):
         value, _, words = row.partition(" ")
         text = re.sub(rf"{_START}{re.escape(words)}{_END}", value, text, flags=re.IGNORECASE)
     return _write_share(text)
@@ -156,7 +156,7 @@ def _list_contrasts() -> tuple[re.Pattern[str], ...]:
             sentence.replace("{wrong}", f"(?:{_VALUE})").replace("{right}", f"(?P<right>{_VALUE})"),
             re.IGNORECASE,
         )
-        for sentence in _list_phrases("contrast", "sentences")
+        for sentence in _list_phrases("contrasts", "sentences")
     )
 
 
@@ -200,7 +200,7 @@ def find_given_value(text: str) -> tuple[str, str]:
 
 _LEADING = (
     rf"(.*\d.*){_START}<giving words>:? ({_VALUE}(?: (?:[^\W\d]|[\u0980-\u09ff])+)?)",
-    rf"([^=:]*[^\W\d][^=:]*\d[^=:]*): ({_VALUE})",
+    rf"([^=:;]*[^\W\d][^=:;]*\d[^=:;]*): ({_VALUE})",
     rf"({_PLAIN}) ?(?:→|->|=>|⇒) ?({_VALUE})",
     rf"({_PLAIN} ?[<>] ?{_PLAIN}) ?(?:,|→|->|=>|⇒) ?(?:[\d+−*/ -]+= ?)?({_VALUE})",
 )
