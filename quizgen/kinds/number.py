@@ -234,7 +234,7 @@ def _judge_as(
 
 
 MILLIONS = frozenset({"Mpx", "MB", "Mbit"})
-_MILLION = re.compile(r"(?<=\d) ?(?:millions?|millionen|mio\.?|মিলিয়ন)(?!\w)", re.IGNORECASE)
+_MILLION = re.compile(r"(?<=\d) ?(?:millions?|millionen|mio\.?|মিলিয়ন|M)(?!\w)", re.IGNORECASE)
 _TIMES = re.compile(r" ?-? ?(?<![^\W\d_])(?:times|fold|fach|mal|[xX*]|গুণ|বার|টি|টা)$", re.IGNORECASE)
 _PER_HUNDRED = re.compile(r"^শতকরা (.+)$")
 _REMARK = re.compile(r"(?<![\d.,*/^+-])(-?\d[\d.,/]*) \((?:[=≈] ?)?([^()]*\d[^()]*)\)$")

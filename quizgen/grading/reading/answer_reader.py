@@ -31,7 +31,9 @@ from quizgen.grading.reading.number_words import (
 )
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.reading.spoken_values import (
+    find_converted,
     find_given_value,
+    list_given_lists,
     list_meant_values,
     write_spoken_formula,
     write_spoken_value,
@@ -238,6 +240,9 @@ def _list_plainer_values(text: str, names: AskedNames, *, ranges: bool) -> Itera
     yield from separate_labelled_values(text, names)
     yield from rejoin_values(text, len(names), ranges=ranges)
     yield from bind_values(text, names, scan_numbers)
+    for given in list_given_lists(text):
+        yield given
+        yield from separate_labelled_values(given, names)
     last = _LAST_LIST.fullmatch(text)
     corrected = _load_around_words().correcting.fullmatch(text)
     yield from ([last[1]] if last else [corrected["rest"]] if corrected else [])
@@ -271,7 +276,9 @@ _ROOT_OF = re.compile(
     re.IGNORECASE,
 )
 _ROOT_BEHIND = re.compile(r"([^\s+*/=-]+?)(?:-| )?এর (?:বর্গ)?মূল")
-_WORDS_BEHIND = re.compile(r" \((?:[^\W\d_]{3,}[ -]?)+\)$")
+_WORDS_BEHIND = re.compile(
+    r" \((?:[^\W\d_]{3,}[ -]?)+\)$|, (?:(?:[^\W\d_]|[\u0981-\u09d7]){2,}[ '’-]?)+$"
+)
 _FRACTION_FACTOR = re.compile(r"(?<![\w.,^/*)])(\d+ ?/ ?\d+) (?=[(√]|[^\W\d_])")
 
 
@@ -317,6 +324,9 @@ def _find_conclusion(text: str) -> Iterator[str]:
         concluded = shape.fullmatch(text)
         if concluded and not says_otherwise(concluded["rest"]):
             yield add_mixed_units(concluded["rest"].rpartition("=")[2].strip() or text)
+    converted = find_converted(text)
+    if converted:
+        yield converted
     said, given = find_given_value(text)
     if given and not is_denied(said):
         yield given
@@ -509,7 +519,7 @@ _REMARKED = re.compile(
 _REMARK = re.compile(r"(?<=\d) ?\([^\W\d][^()\d;,]*\)")
 _MINUS = re.compile(r"(?<![^\W\d_])(?:minus|মাইনাস) (?=[.,]?\d)", re.IGNORECASE)
 _LAST_LIST = re.compile(
-    r"(?:.*\d.*|[^(,;]+)(?:=|:|, (?:so|thus|hence|therefore|also|daher|তাই)) ?"
+    r"(?:.*\d.*|[^(,;]+)(?:=>?|:|→|⇒|->|, (?:so|thus|hence|therefore|also|daher|তাই)) ?"
     r"(\([^()=]+\)|\[[^\[\]=]+\])",
     re.DOTALL,
 )

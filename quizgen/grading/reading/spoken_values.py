@@ -189,6 +189,25 @@ def separate_elements(typed: str) -> str:
 _ELEMENT_OF = re.compile(r"^[^\W\d_] ?(?:(?:∈|\\in|in) ?(?=[{\[(])|(?:is|ist) (?=[-+−]?\d))")
 
 
+def find_converted(text: str) -> str:
+    """Return the last side of a chain that goes on in another kind of unit; empty if none does.
+
+    ``10.53 µm ≈ 2.63 px`` converts by what the question gives, which cannot be compared.
+    """
+    *before, last = (side.strip() for side in re.split("[=≈]", text))
+    units = [_UNIT_LAST.search(side) for side in (*before[-1:], last)]
+    if len(units) < len(("before", "last")) or not all(units):
+        return ""
+    try:
+        kinds = {read_unit(unit[1]).dimension for unit in units if unit}
+    except FormulaError:
+        return ""
+    return last if len(kinds) > 1 else ""
+
+
+_UNIT_LAST = re.compile(r"\d ?((?:[^\W\d]|[µ°%])[^\d\s]*)$")
+
+
 def find_given_value(text: str) -> tuple[str, str]:
     """Return what a text says and the value it leads to: ``4 bits give 16``; empty if none."""
     for shape in _LEADING:
@@ -200,10 +219,31 @@ def find_given_value(text: str) -> tuple[str, str]:
 
 _LEADING = (
     rf"(.*\d.*){_START}<giving words>:? ({_VALUE}(?: (?:[^\W\d]|[\u0980-\u09ff])+)?)",
-    rf"([^=:]*[^\W\d][^=:]*\d[^=:]*): ({_VALUE})",
+    rf"([^=:]*(?:[^\W\d][^=:]*\d|\d[^=:]*[^\W\d])[^=:]*): ({_VALUE})",
     rf"({_PLAIN}) ?(?:→|->|=>|⇒) ?({_VALUE})",
     rf"({_PLAIN} ?[<>] ?{_PLAIN}) ?(?:,|→|->|=>|⇒) ?(?:[\d+−*/ -]+= ?)?({_VALUE})",
 )
+
+
+def list_given_lists(text: str) -> Iterator[str]:
+    """Yield the several values that a text leads to, and those with words before their names.
+
+    ``this gives (0.9; 0.7)``, ``half each: 48 black, 48 white``, ``s = 7, then r = 2``.
+    """
+    listed = compile_spoken(rf".*\w.*{_START}<giving words>:? (\([^()]+\)|\[[^\[\]]+\])").fullmatch(
+        text
+    )
+    if listed:
+        yield listed[1]
+    behind = _BEHIND_COLON.fullmatch(text)
+    if behind:
+        yield behind[1]
+    parted = compile_spoken(r"[,;]? *<giving onward>,? (?=[^\W\d]\S* ?=)").sub("; ", text)
+    if parted != text:
+        yield parted.removeprefix("; ")
+
+
+_BEHIND_COLON = re.compile(r"[^:]*\d[^:]*[^\W\d][^:]*: ([^:]*\d[^:]*)")
 
 
 def read_share(typed: str) -> str:
