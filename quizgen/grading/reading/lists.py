@@ -15,7 +15,7 @@ BRACKETS = {"(": ")", "[": "]", "{": "}", "<": ">"}
 _HARD = re.compile(r"[;|\n]")
 _COMMA = re.compile(r",")
 _COMMA_BLANK = re.compile(r", +")
-_COMMA_DECIMAL = re.compile(rf"(?:{NAME} ?[=:≈] ?)?[-+−]?\d+,\d+(?: ?[^\W\d][^\d,]*|%)?")
+_COMMA_DECIMAL = re.compile(rf"(?:{NAME} ?[=:≈] ?)?[-+−]?\d+(?:,\d+)?(?: ?[^\W\d][^\d,]*|%)?")
 _SLASH = re.compile(r" / ")
 _BLANK_BEFORE = re.compile(r" +(?=[,;|])")
 _JOINING = re.compile(r"[,;]? (?:and|und|&|এবং|ও|আর) ")
