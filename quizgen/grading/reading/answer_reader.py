@@ -31,6 +31,7 @@ from quizgen.grading.reading.number_words import (
 )
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.reading.spoken_values import (
+    drop_display,
     find_converted,
     find_given_value,
     list_given_lists,
@@ -493,6 +494,7 @@ _SHARE_OF_UNIT = re.compile(
 
 def _write_items_as_numbers(text: str) -> str:
     """Return several values with those in words as digits, and without remarks in brackets."""
+    text = drop_display(text)
     text = _REMARK.sub(lambda m: m[0] if says_otherwise(m[0]) else "", text)
     pieces = _ITEMS.split(_MINUS.sub("-", text))
     return "".join(map(_write_item_as_number, pieces))

@@ -53,6 +53,7 @@ def compile_spoken(shape: str) -> re.Pattern[str]:
 def write_spoken_value(text: str) -> str:
     """Return a number in words that mean a power, a share or a half in signs; else as it is."""
     text = _POINTLESS.sub("", _write_powers(text))
+    text = drop_display(text)
     text = _IN_BASE.sub(lambda m: str(int(m[0], 0)), text)
     share = r"(?<![\w./⁄])(?:<shares one> )?(\d+)(?: ?-?<shares endings>)(?![^\W\d_])"
     text = compile_spoken(share).sub(r"1/\1", text)
@@ -64,6 +65,18 @@ def write_spoken_value(text: str) -> str:
     return _write_share(text)
 
 
+def drop_display(text: str) -> str:
+    """Return a number without the call that shows it in a computer algebra system: ``4.09``."""
+    before = ""
+    while text != before:
+        before, text = text, _DISPLAY.sub(r"\1", text)
+    return text
+
+
+_DISPLAY = re.compile(
+    r"(?<!\w)(?:disp(?:lay)?[ds][pf]|remove_numerical_inert)\(([^(),\[\]{}]+)(?:, ?\d+)?\)"
+)
+"""``displaydp(4.09, 2)`` of STACK."""
 _IN_BASE = re.compile(r"(?<![\w.])0(?:[xX][0-9a-fA-F]{1,12}|[bB][01]{1,32})(?!\w)")
 _POINTLESS = re.compile(r"(?<=\S) *(?::-?\)+|;-?\)|:-?D|:P|\^\^|\\)$")
 """Smileys, and a stroke that a keyboard left behind."""
