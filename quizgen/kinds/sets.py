@@ -37,7 +37,7 @@ from quizgen.kinds.contract import (
 from quizgen.kinds.forms import format_plain, require_form
 from quizgen.kinds.number import is_number
 from quizgen.locale import translate
-from quizgen.maths.constants import parse_exact
+from quizgen.maths.constants import Scalar, parse_exact
 from quizgen.maths.notation import FormulaReadError, pretty
 from quizgen.maths.tolerance import RULES
 from quizgen.maths.tree import Call, Expr, Sym
@@ -93,6 +93,13 @@ class SetSpec(VectorSpec, kw_only=True, frozen=True):
         if own is one and one.credit:
             return one
         raise FormulaReadError("comma-twice", 1, typed)
+
+    def replace_key(self, form: Expr, /) -> SetSpec:
+        """Return the specification with other elements as its key, and without mistakes."""
+        args = form.args if isinstance(form, Call) else ()
+        letters = [arg.name for arg in args if isinstance(arg, Sym)]
+        values: list[Scalar] = [format_plain(arg) for arg in args if not isinstance(arg, Sym)]
+        return msgspec.structs.replace(self, values=values, letters=letters, traps={})
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from functools import cache
 from typing import TypeAlias
 
 from quizgen.grading.judging.spelling import find_translation, fold_word
 from quizgen.grading.reading.source_map import SourceText
-from quizgen.locale import list_languages, load_words
+from quizgen.locale import cache_words, list_languages, load_words
+from quizgen.locale.word_patterns import set_of_words
 from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.notation.names import GREEK, fold_name
 
@@ -63,7 +63,7 @@ def _prime_last(name: str) -> str:
     return key.replace("'", "") + "'" * key.count("'")
 
 
-@cache
+@cache_words
 def _letters_of_words() -> dict[str, str]:
     """Return the letters that a word may stand for, from every language.
 
@@ -76,7 +76,7 @@ def _letters_of_words() -> dict[str, str]:
     return found
 
 
-@cache
+@cache_words
 def _same_labels() -> tuple[frozenset[str], ...]:
     """Return the words that are one label in several languages: before, vorher, আগে."""
     found: dict[str, set[str]] = {}
@@ -155,10 +155,7 @@ LEAST_SHORTENED = 3
 def _split_label(text: str) -> list[str]:
     """Return the words of a label, without what every label may have."""
     words = [fold_word(word).removesuffix("s") for word in re.split(r"[\s/-]+", text)]
-    return [word for word in words if word and word not in _EMPTY_WORDS] or words
-
-
-_EMPTY_WORDS = frozenset({"a", "an", "the", "image", "with", "value", "and", "of"})
+    return [word for word in words if word and word not in set_of_words("label-fillers")] or words
 
 
 def _find_short_name(typed: str, names: AskedNames) -> str:

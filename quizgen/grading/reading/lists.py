@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from quizgen.grading.reading.labels import NAME
 from quizgen.grading.reading.normalise import LONGEST, LONGEST_PROSE, normalise_typed
 from quizgen.grading.reading.source_map import SourceText
+from quizgen.locale.word_patterns import WordPattern
 from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.notation.names import FUNCTIONS
 
@@ -18,7 +19,7 @@ _COMMA_BLANK = re.compile(r", +")
 _COMMA_DECIMAL = re.compile(rf"(?:{NAME} ?[=:≈] ?)?[-+−]?\d+(?:,\d+)?(?: ?[^\W\d][^\d,]*|%)?")
 _SLASH = re.compile(r" / ")
 _BLANK_BEFORE = re.compile(r" +(?=[,;|])")
-_JOINING = re.compile(r"[,;]? (?:and|und|&|এবং|ও|আর) ")
+_JOINING = WordPattern(r"[,;]? (?:«and»|&) ")
 _UNIT_BEHIND = re.compile(r"[^;,|\d(\[{]*| ?[\[(][^;,|\d\[\](){}]+[\])]")
 _NAMES = re.compile(rf"\(? ?({NAME}(?: ?[,;|] ?{NAME})+) ?\)? ?(?::=|[=:≈]) ?(?=\S)")
 _NAME_ENDS = re.compile("[,;|]")
