@@ -235,7 +235,7 @@ def _judge_as(
 
 
 MILLIONS = frozenset({"Mpx", "MB", "Mbit"})
-_MILLION = WordPattern(r"(?<=\d) ?«million»(?!\w)", re.IGNORECASE)
+_MILLION = WordPattern(r"(?<=\d) ?(?:«million»|M)(?!\w)", re.IGNORECASE)
 _TIMES = WordPattern(r" ?-? ?(?<![^\W\d_])(?:«times-behind»|[xX*])$", re.IGNORECASE)
 _PER_HUNDRED = WordPattern(r"^«percent-before» (.+)$")
 _REMARK = re.compile(r"(?<![\d.,*/^+-])(-?\d[\d.,/]*) \((?:[=≈] ?)?([^()]*\d[^()]*)\)$")

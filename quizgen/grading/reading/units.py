@@ -155,10 +155,29 @@ def _find_unit_word(word: str) -> str:
     listed = words.get(word) or lower.get(word.lower()) or words.get(_POINTS.sub("", word))
     if listed is None and word.startswith(("µ", "μ")):
         listed = "u" + word[1:] if "u" + word[1:] in known.simple else None
+    listed = listed or _find_parted_prefix(word, words, known.simple)
     listed = listed or _find_misspelt_unit(word, lower)
     if listed is None:
         raise FormulaError(f"unknown unit {word!r}")
     return listed
+
+
+def _find_parted_prefix(word: str, words: Mapping[str, str], simple: Container[str]) -> str | None:
+    """Return the unit of ``milli eV``, whose prefix is a word of its own; None if it has none."""
+    prefix, _, rest = word.partition(" ")
+    letter = _list_prefix_words().get(prefix.lower()) if rest and " " not in rest else None
+    unit = rest if rest in simple else words.get(rest, "")
+    return letter + unit if letter and unit and letter + unit in simple else None
+
+
+@cache_words
+def _list_prefix_words() -> Mapping[str, str]:
+    """Return the words for prefixes in every language, and their letters."""
+    return {
+        pattern.format("").lower(): letter
+        for lang in list_languages()
+        for letter, pattern in load_words(lang, "speech")["prefixes"].items()
+    }
 
 
 def _find_misspelt_unit(word: str, known: Mapping[str, str]) -> str | None:
