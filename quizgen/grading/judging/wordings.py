@@ -19,6 +19,7 @@ from quizgen.grading.judging.spelling import (
     fold_word,
     typo_distance,
 )
+from quizgen.grading.judging.statements import list_clause_words
 from quizgen.grading.reading.answer_reader import says_otherwise
 from quizgen.grading.reading.number_words import list_number_words
 from quizgen.locale import cache_words
@@ -317,7 +318,7 @@ def _own_words(words: frozenset[str], listed: list[frozenset[str]]) -> frozenset
 
 def _denies(words: frozenset[str]) -> bool:
     """Return whether a word of denial is among some."""
-    return bool(words & set_of_words("wordings.denying"))
+    return bool(words & (set_of_words("wordings.denying") | list_clause_words("denials")))
 
 
 def _find_known_words(word: str, known: frozenset[str]) -> frozenset[str]:
