@@ -232,6 +232,9 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
         return several
     if {*map(str.casefold, spec.choices())} == {"yes", "no"} and (truth := read_truth(typed)):
         return [spec.choices().index(("yes", "no")[truth - 1]) + 1]
+    told = _read_last_word(spec, typed) if spec.kind == "choice" else []
+    if told:
+        return told
     read = (
         _find_option_by_truth(spec, typed)
         or _parse_labelled_options(spec, typed)
@@ -458,6 +461,87 @@ def _read_set_apart(spec: ChoiceSpec, typed: str) -> list[int]:
         if not {*kept} & {*denied}:
             return kept
     return []
+
+
+def _read_last_word(spec: ChoiceSpec, typed: str) -> list[int]:
+    """Return the option that is left when others are denied, corrected or only thought of.
+
+    ``not A, but C``, ``A no sorry C``, ``red is high but the sky is weak, so A blue``.
+
+    Raises
+    ------
+    FormulaReadError
+        If what is concluded is another option than what stands before it.
+    """
+    text = typed.strip(_AROUND)
+    kept = _read_kept_clause(spec, text)
+    if kept:
+        return [kept]
+    for shape in (_CORRECTED, _SECOND_THOUGHT):
+        match = shape.fullmatch(text)
+        last = _read_plainly(spec, match["rest"]) if match else 0
+        if match and last and (shape is _SECOND_THOUGHT or _read_plainly(spec, match["head"])):
+            return [last]
+    match = _CONCLUDED.fullmatch(text)
+    last = _read_plainly(spec, match["rest"]) if match else 0
+    first = _read_plainly(spec, match["head"]) if match and last else 0
+    if first in {0, last} or (
+        match and _LETTERED_END.match(match["rest"]) and len(text) > _LONG_WORD
+    ):
+        return [last] if last else []
+    raise FormulaReadError("two-readings", 1, safe_echo(typed))
+
+
+def _read_plainly(spec: ChoiceSpec, text: str) -> int:
+    """Return the option that a clause is, by its letter, its words or both; 0 if it is none."""
+    bare = _FINAL.sub("", text.strip(_AROUND + ",;:… "))
+    if len(bare) == 1:
+        mark = bare.translate(BANGLA_LETTERS).upper()
+        return LETTERS.find(mark) + 1 if mark in _list_letters(spec) else 0
+    further = _CONCLUDED.fullmatch(bare)
+    if further:
+        return _read_plainly(spec, further["rest"])
+    try:
+        labelled = _parse_labelled_option(spec, bare)
+    except FormulaReadError:
+        return 0
+    return labelled or _find_option_by_text(spec, bare) or _find_wording(spec, bare)
+
+
+def _read_kept_clause(spec: ChoiceSpec, text: str) -> int:
+    """Return the only option that a clause names, beside others that are denied; 0 without any."""
+    kept, denied = set[int](), set[int]()
+    known = [text for texts in (spec.choices(), *spec.said) for text in texts]
+    for piece in _CLAUSES.split(text):
+        out = _NEGATED.fullmatch(piece.strip(_AROUND))
+        if out:
+            listed = _ALTERNATIVE.split(out["out"] or out["before"])
+            denied |= {_read_plainly(spec, one) or -share_words(one, known) for one in listed}
+        else:
+            kept.add(_read_plainly(spec, piece))
+    kept -= {0}
+    return kept.pop() if denied - {0} and len(kept) == 1 and not kept & denied else 0
+
+
+_CORRECTED = WordPattern(
+    r"(?P<head>.+?)[,;.… ]+(?:«choices.correcting»[,;:.… ]+)+(?P<rest>.+)", re.IGNORECASE
+)
+_SECOND_THOUGHT = WordPattern(
+    r"(?P<head>.*)«choices.thought».+ «choices.but» (?P<rest>.+)", re.IGNORECASE
+)
+_CONCLUDED = WordPattern(
+    r"(?P<head>.+)(?:[,;.:]? )(?:«so»|«choices.final»|->|=>|→|⇒)[,:]? (?P<rest>.+)", re.IGNORECASE
+)
+_FINAL = WordPattern(
+    r"^(?:(?:«so»|«choices.final»|«choices.it»(?: «choices.is»|'s)?) )+", re.IGNORECASE
+)
+_CLAUSES = WordPattern(r"[,;.:]\s+|,? (?:«choices.but») ", re.IGNORECASE)
+_NEGATED = WordPattern(
+    r"(?:\S+ )?(?:«choices.not») (?P<out>.+)"
+    r"|(?P<before>.+?) (?:«choices.are» )?(?:«choices.no-option»)",
+    re.IGNORECASE,
+)
+_LETTERED_END = re.compile(r"[A-Z](?:[) :.].*)?$")
 
 
 def _find_option_by_its_end(spec: ChoiceSpec, typed: str) -> list[int]:

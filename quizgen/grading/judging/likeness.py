@@ -15,6 +15,7 @@ from quizgen.grading.judging.spelling import (
     find_translation,
     fold_word,
     is_another_word,
+    sounds_alike,
     typo_distance,
 )
 from quizgen.grading.judging.statements import Scale, find_scales, is_form_of, list_clause_words
@@ -160,6 +161,13 @@ def _is_slip(word: str, other: str) -> bool:
     return bool(near) and not is_another_word(word, other, ())
 
 
+@cache_words
+def _list_multiples() -> dict[str, int]:
+    """Return words that are a factor by themselves, with it: ``twice``."""
+    rows = (row.split(" ", 1) for row in list_words("factors.multiples"))
+    return {word: int(number) for number, word in rows if " " not in word}
+
+
 def _is_word(word: str) -> bool:
     """Return whether it is letters, and no number or a sign with one."""
     return word[:1].isalpha() and not any(map(str.isdigit, word))
@@ -169,7 +177,7 @@ def _read_number(word: str) -> int:
     """Return the whole number that a word is or says; -1 if it is none."""
     if word.isdecimal():
         return int(word)
-    known = list_number_words()
+    known = list_number_words() | _list_multiples()
     said = (sense[0] for sense in list_senses(word) if len(sense) == 1)
     return known.get(word, next((known[one] for one in said if one in known), -1))
 
@@ -178,6 +186,8 @@ def _read_number(word: str) -> int:
 def _says_the_same(word: str, other: str) -> bool:
     """Return whether a word says the same as another one, or is its beginning."""
     if _is_same_word(word, other):
+        return True
+    if not word.isascii() and other.isascii() and sounds_alike(word, other):
         return True
     if len(word) >= BEGINNING and other.startswith(word) and _is_word(word):
         return True
@@ -222,6 +232,8 @@ def _is_enough(
     """
     if len(strangers) > len(telling) + 1:
         return False
+    if not strangers and all(_read_number(word) >= 0 for word in telling):
+        return True
     worded = [word for word in telling if _is_word(word) and _read_number(word) < 0]
     longest = max(
         (len(one) for word in worded for one in (word, *find_translation(word))), default=0

@@ -221,6 +221,7 @@ def _find_by_name(typed: str, wordings: Sequence[str]) -> int:
     said = frozenset(_split_words(typed))
     names = _list_names_of(typed) - {said}
     known = frozenset().union(*map(_split_words, wordings))
+    joining = set_of_words("wordings.joining")
     for found in (
         [place for place, one in enumerate(wordings, 1) if said and said in _list_names_of(one)],
         [place for place, one in enumerate(wordings, 1) if names and names <= _list_names_of(one)],
@@ -229,7 +230,7 @@ def _find_by_name(typed: str, wordings: Sequence[str]) -> int:
             place
             for place, one in enumerate(wordings, 1)
             if any(
-                said & known == name and _is_little_more(said - name)
+                name and (said & known) - joining == name and _is_little_more(said - known)
                 for name in _list_names_of(one)
             )
         ],
