@@ -11,12 +11,12 @@ import msgspec
 
 from quizgen.core.errors import FormulaError
 from quizgen.grading.echo import safe_echo
+from quizgen.grading.judging.likeness import read_count
 from quizgen.grading.judging.spelling import fold_word
 from quizgen.grading.judging.wordings import find_wording_in, holds_wording, share_words
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, is_denied, says_otherwise
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, PICTURES, normalise_typed
-from quizgen.grading.reading.number_words import list_number_words
 from quizgen.grading.reading.units import read_unit
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
@@ -225,16 +225,9 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
         If there is none.
     """
     typed = _ARE_TRUE.sub("", typed.rstrip(" ;,✓✔."))
-    whole = _find_option_by_text(spec, typed)
-    if whole:
-        return [whole]
-    if several := _read_listed(spec, typed) if spec.kind == "multi" else []:
-        return several
-    if {*map(str.casefold, spec.choices())} == {"yes", "no"} and (truth := read_truth(typed)):
-        return [spec.choices().index(("yes", "no")[truth - 1]) + 1]
-    told = _read_last_word(spec, typed) if spec.kind == "choice" else []
-    if told:
-        return told
+    clear = _read_clear_options(spec, typed)
+    if clear:
+        return clear
     read = (
         _find_option_by_truth(spec, typed)
         or _parse_labelled_options(spec, typed)
@@ -249,6 +242,52 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
             raise
         return meant
     return (spec.kind == "choice" and len(read) > 1 and _find_worded_options(spec, typed)) or read
+
+
+def _read_clear_options(spec: ChoiceSpec, typed: str) -> list[int]:
+    """Return the options of an answer that is one, lists some in full, or says which are not.
+
+    Raises
+    ------
+    FormulaReadError
+        If it contradicts itself, or leaves out what is no option.
+    """
+    whole = _find_option_by_text(spec, typed)
+    if whole:
+        return [whole]
+    if spec.kind == "multi":
+        return _read_beside_denied(spec, typed) or _read_listed(spec, typed)
+    if {*map(str.casefold, spec.choices())} == {"yes", "no"} and (truth := read_truth(typed)):
+        return [spec.choices().index(("yes", "no")[truth - 1]) + 1]
+    return _read_last_word(spec, typed)
+
+
+def _read_beside_denied(spec: ChoiceSpec, typed: str) -> list[int]:
+    """Return the options by letters beside others that are said not to be: ``A, B right, C not``.
+
+    A remark in brackets behind them says nothing against them.
+    """
+    match = _BESIDE_DENIED.fullmatch(typed.strip(_AROUND)) or _LETTERS_REMARKED.fullmatch(typed)
+    if match is None or says_otherwise(match.groupdict().get("remark") or ""):
+        return []
+    try:
+        kept = _read_positions(spec, match["kept"])
+        out = match.groupdict().get("out")
+        denied = _read_positions(spec, out) if out else []
+    except FormulaReadError:
+        return []
+    return [] if {*kept} & {*denied} else kept
+
+
+_LETTERS = r"[^\W\d_](?:(?:[, ]+|,? «and» )[^\W\d_])*"
+_BESIDE_DENIED = WordPattern(
+    rf"(?P<kept>{_LETTERS})(?: «choices.right-behind»| «choices.are» «choices.right»)?"
+    rf"(?:,|;| «choices.but») (?P<out>{_LETTERS}) (?:«choices.are» )?«choices.no-option»",
+    re.IGNORECASE,
+)
+_LETTERS_REMARKED = WordPattern(
+    r"(?P<kept>[A-Z](?:(?:[, ]+|,? «and» )[A-Z])*) \((?P<remark>[^()]{3,})\)"
+)
 
 
 def _read_listed(spec: ChoiceSpec, typed: str) -> list[int]:
@@ -269,7 +308,9 @@ def _read_listed(spec: ChoiceSpec, typed: str) -> list[int]:
     left_out = every
     if but:
         out = but["out"] or but["before"]
-        left_out = _find_worded_options(spec, out) or _read_positions(spec, out)
+        named = find_wording_in(out, [spec.choices(), *spec.said], all_named=True)
+        left_out = _find_worded_options(spec, out) or ([named] if named else [])
+        left_out = left_out or _read_positions(spec, out)
     return [one for one in every if one not in left_out]
 
 
@@ -355,7 +396,7 @@ def _read_places(text: str, count: int) -> list[int]:
         return [count]
     if len(words) == 1 and counted[0]:
         return [place for place in counted if place <= count]
-    many = list_number_words().get(words[1], 0) if len(words) == len(("first", "two")) else 0
+    many = read_count(words[1]) if len(words) == len(("first", "two")) else 0
     if not 1 < many <= count:
         return []
     if words[0] in set_of_words("choices.last"):

@@ -147,8 +147,8 @@ def _is_same_word(word: str, other: str) -> bool:
     """Return whether a word is a form of another one, as a number is only of itself."""
     if word == other:
         return True
-    if _read_number(word) >= 0 or _read_number(other) >= 0:
-        return _read_number(word) == _read_number(other)
+    if read_count(word) >= 0 or read_count(other) >= 0:
+        return read_count(word) == read_count(other)
     if word.isascii() and (min(len(word), len(other)) < LEAST or not (word + other).isalpha()):
         return False
     return is_form_of(word, other, slips=False) or _is_slip(word, other)
@@ -173,7 +173,7 @@ def _is_word(word: str) -> bool:
     return word[:1].isalpha() and not any(map(str.isdigit, word))
 
 
-def _read_number(word: str) -> int:
+def read_count(word: str) -> int:
     """Return the whole number that a word is or says; -1 if it is none."""
     if word.isdecimal():
         return int(word)
@@ -232,9 +232,9 @@ def _is_enough(
     """
     if len(strangers) > len(telling) + 1:
         return False
-    if not strangers and all(_read_number(word) >= 0 for word in telling):
+    if not strangers and all(read_count(word) >= 0 for word in telling):
         return True
-    worded = [word for word in telling if _is_word(word) and _read_number(word) < 0]
+    worded = [word for word in telling if _is_word(word) and read_count(word) < 0]
     longest = max(
         (len(one) for word in worded for one in (word, *find_translation(word))), default=0
     )
@@ -243,7 +243,7 @@ def _is_enough(
     fillers = list_clause_words("fillers")
     rest = [[word for word in words if word not in fillers] for words in meant]
     return any(
-        2 * len(worded) >= len(words) or all(_read_number(word) >= 0 for word in words)
+        2 * len(worded) >= len(words) or all(read_count(word) >= 0 for word in words)
         for words in rest
     )
 
@@ -266,7 +266,7 @@ def _agree(said: Sequence[str], strangers: Sequence[str], meant: Clauses) -> boo
         return False
     if any(word in list_clause_words("doubts") for word in strangers):
         return False
-    if any(not _is_word(word) or _read_number(word) > 1 for word in strangers):
+    if any(not _is_word(word) or read_count(word) > 1 for word in strangers):
         return False
     return _point_one_way(spoken, strangers, {word for clause in meant for word in clause})
 
