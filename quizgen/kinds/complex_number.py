@@ -40,7 +40,7 @@ from quizgen.maths.tree import Call, Expr, Sym, make_number, names_in, operators
 from quizgen.maths.values import Value
 
 if TYPE_CHECKING:
-    from quizgen.question.inlines import TextOrInlines
+    from quizgen.typeset.prose import TextOrInlines
 
 _HINT = hint("ask.complex")
 _UNITS = ("i", "j")
@@ -259,9 +259,9 @@ def input_hints(spec: ComplexSpec, lang: str) -> tuple[TextOrInlines, ...]:
 def explain_key(spec: ComplexSpec, _lang: str) -> TextOrInlines:
     """The number as it is written by hand."""
     if spec.form == "polar" and spec.tolerance:
-        from quizgen.question.inlines import TypesetMaths
         from quizgen.typeset import quantity
         from quizgen.typeset.nodes import Ident, MathRow
+        from quizgen.typeset.prose import TypesetMaths
 
         size, angle = spec.rounded_polar()
         row = MathRow((quantity(size, ""), Ident("\N{ANGLE}"), quantity(angle, "deg")))

@@ -25,7 +25,7 @@ from quizgen.maths.tree import Call, Expr, Num
 from quizgen.maths.values import Value
 
 if TYPE_CHECKING:
-    from quizgen.question.inlines import TextOrInlines
+    from quizgen.typeset.prose import TextOrInlines
 
 _NUMBER = re.compile(r"-?\d+(?:/\d+|\.\d+)?")
 _FORM_WORDS = {"eq": "equation", "lt": "<", "le": "<=", "gt": ">", "ge": ">="}
@@ -59,7 +59,7 @@ def typeset_key(tree: Expr, typed_text: str = "") -> TextOrInlines:
     ``typed_text`` is how it would be typed, where that is not the formula itself.
     """
     from quizgen import typeset
-    from quizgen.question.inlines import TypesetMaths
+    from quizgen.typeset.prose import TypesetMaths
 
     return (TypesetMaths(typeset.lay_out(tree, inline=True), typed_text or format_tree(tree)),)
 

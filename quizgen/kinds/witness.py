@@ -67,7 +67,7 @@ from quizgen.maths.tree import Call, Expr, Num, substitute
 from quizgen.maths.units import format_unit
 
 if TYPE_CHECKING:
-    from quizgen.question.inlines import TextOrInlines
+    from quizgen.typeset.prose import TextOrInlines
 
 
 class Demand(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):

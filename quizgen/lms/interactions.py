@@ -13,7 +13,6 @@ from typing import ClassVar
 
 from msgspec import structs
 
-from quizgen.bank.markdown import Inline, PlainText
 from quizgen.core.decoding import convert
 from quizgen.grading.reading import bases
 from quizgen.grading.spec import AnySpec, NumericSpec, ScalarSpec, is_whole_number
@@ -30,6 +29,7 @@ from quizgen.maths.numbers import count_decimals
 from quizgen.maths.values import Value
 from quizgen.question.compose import QuestionPart
 from quizgen.question.solution import PartSolution
+from quizgen.typeset.prose import Inline, PlainText
 
 # A sentence, or pieces of one.
 FeedbackText = tuple[Inline, ...]

@@ -18,7 +18,7 @@ from pseudo import LANG, accented, write_bank, write_language
 
 from quizgen import figures, locale, mark_part, typeset
 from quizgen.bank.bank import builtin_bank
-from quizgen.locale import list_languages, load_words
+from quizgen.locale import check_translations, custom, list_languages, load_words
 from quizgen.maths.notation import parse_formula
 
 pytestmark = pytest.mark.slow
@@ -117,30 +117,26 @@ def test_marks_come_with_messages_in_the_language(place, paper):
     assert all(("á" in p["message"] or "é" in p["message"]) for p in parts if p["message"])
 
 
-FRENCH = """
+ESPERANTO = """
 [letters]
-noirs = "b"
-blancs = "w"
-"inchangés" = "0"
+nigraj = "b"
+blankaj = "w"
+"senŝanĝaj" = "0"
 
 [said]
-yellow = ["jaune"]
+yellow = ["flava"]
 
 [around]
-before = ["la réponse est"]
+before = ["la respondo estas"]
 
 [numbers]
-counted = ["zéro", "un", "deux", "trois", "quatre", "cinq", "six", "sept", "huit", "neuf", "dix",
-  "onze", "douze", "treize", "quatorze"]
-multiples = ["1000 mille"]
+counted = ["nul", "unu", "du", "tri", "kvar", "kvin", "ses", "sep", "ok", "naŭ", "dek"]
+larger = ["14 dek kvar"]
+multiples = ["1000 mil"]
 
 [reading]
-and = ["et"]
-point = ["virgule"]
-to = ["à"]
-
-[wordings]
-idle = ["le", "la", "les"]
+and = ["kaj"]
+point = ["komo"]
 """
 """Words with which answers are read, and nothing else of the language but its name."""
 
@@ -148,11 +144,11 @@ idle = ["le", "la", "les"]
 @pytest.mark.parametrize(
     ("question", "part", "typed", "meant"),
     [
-        ("rolling-shutter-skew", "a", "la réponse est quatorze virgule quatre", "14.4"),
-        ("rgb-to-cmyk", "c", "jaune", "yellow"),
+        ("rolling-shutter-skew", "a", "la respondo estas dek kvar komo kvar", "14.4"),
+        ("rgb-to-cmyk", "c", "flava", "yellow"),
         (
             "salt-and-pepper-counts", "a",
-            "noirs 16 mille, blancs 16 mille et inchangés 608 mille", "16000; 16000; 608000",
+            "nigraj 16 mil, blankaj 16 mil kaj senŝanĝaj 608 mil", "16000; 16000; 608000",
         ),
     ],
 )  # fmt: skip
@@ -164,9 +160,9 @@ def test_answers_are_read_in_words_of_the_language(
         return mark_part(template, text, part=part, seed=41, lang="en")
 
     assert not mark(typed).is_graded
-    (tmp_path / "fr").mkdir()
-    (tmp_path / "fr" / "language.toml").write_text('name = "Français"\n', encoding="utf-8")
-    (tmp_path / "fr" / "answers.toml").write_text(FRENCH, encoding="utf-8")
+    (tmp_path / "eo").mkdir()
+    (tmp_path / "eo" / "language.toml").write_text('name = "Esperanto"\n', encoding="utf-8")
+    (tmp_path / "eo" / "answers.toml").write_text(ESPERANTO, encoding="utf-8")
     monkeypatch.setattr(locale, "PLACES", [*locale.PLACES])
     try:
         locale.register_languages(place=tmp_path)
@@ -175,6 +171,19 @@ def test_answers_are_read_in_words_of_the_language(
         monkeypatch.undo()
         locale.forget_words()
     assert not mark(typed).is_graded
+
+
+def test_a_row_of_a_bank_without_its_number_is_told_of_and_left_out(tmp_path):
+    (tmp_path / "eo").mkdir()
+    (tmp_path / "eo" / "language.toml").write_text('name = "Esperanto"\n', encoding="utf-8")
+    (tmp_path / "eo" / "answers.toml").write_text(
+        '[numbers]\nlarger = ["cent"]\n', encoding="utf-8"
+    )
+    said = [problem.message for problem in check_translations(tmp_path)]
+    assert any("numbers" in one and "begin with its number" in one for one in said), said
+    english = load_words("en", "answers")
+    own = custom.merge_translation(english, {"numbers": {"larger": ["cent"]}})
+    assert own["numbers"]["larger"] == english["numbers"]["larger"]
 
 
 def test_practice_speaks_the_language(place):

@@ -15,7 +15,7 @@ import re
 import unicodedata
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cache, cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from typing import Literal, NamedTuple
 
 from quizgen.grading.judging.spelling import (
@@ -25,6 +25,7 @@ from quizgen.grading.judging.spelling import (
     typo_distance,
 )
 from quizgen.locale import cache_words, list_languages, load_words
+from quizgen.locale.word_patterns import list_words
 
 Meaning = Literal["said", "half", "denied", "open"]
 """What a clause does with an idea; ``open`` where its words are there and its sign is not sure."""
@@ -102,7 +103,7 @@ def _split_prefix(word: str) -> tuple[str, ...]:
         return ("not",)
     word = word.removesuffix("'s").strip("'")
     folded = fold_word(word) or word
-    for prefix in ("non", "nicht"):
+    for prefix in list_words("spelling.denying-prefixes"):
         if folded.startswith(prefix) and len(folded) >= len(prefix) + SHORTEST + 1:
             return ("not", folded.removeprefix(prefix))
     return (folded,)
@@ -139,7 +140,7 @@ class _Vocabulary:
     equal: tuple[frozenset[str], ...]
 
 
-@cache
+@cache_words
 def _vocabulary() -> _Vocabulary:
     """Return the words of all languages, read once."""
     tables = [table for lang in list_languages() if (table := load_words(lang, "statements"))]
@@ -255,31 +256,18 @@ def _is_near_stem(word: str, stem: str) -> bool:
     return any(_is_slip(word[:size], stem) for size in (len(stem) - 1, len(stem), len(stem) + 1))
 
 
-_ENDINGS = (
-    ("ation", "ations", "ating", "ated", "ates", "ate", "ator", "ational"),
-    ("ity", "ities", "ive", "ively", "ion", "ions", "ing", "ings", "ed", "es", "s", "er", "ers",
-     "est", "ly", "y", "al", "ally", "ment", "ness", "e", "ier", "iest", "ies", "ied"),
-    ("ieren", "iert", "ierte", "ierten", "ierung", "en", "em", "ste", "sten", "ere", "eren",
-     "t", "te", "ten", "et", "ung", "ungen", "n"),
-    ("এর", "ের", "তে", "টা", "টি", "টার", "টির", "গুলো", "গুলোর", "গুলি", "কে", "য়", "র", "ে",
-     "রা", "দের", "ায়", "া", "েই", "ই", "ও"),
-)  # fmt: skip
-_PLAIN = frozenset({"s", "ed", "ing", "es"})
-"""Endings that leave a stem of three letters, too: adds, added."""
-_SUFFIXES = sorted({end for group in _ENDINGS for end in group}, key=len, reverse=True)
-
-
-@lru_cache(maxsize=8192)
+@partial(cache_words, most=8192)
 def _stems(word: str) -> frozenset[str]:
     """Return a folded word, and what is left of it without each ending that leaves a stem."""
     least = SHORTEST if word.isascii() else 2
     found = {word}
-    for end in _SUFFIXES:
+    for end in list_words("spelling.endings"):
         if word.endswith(end):
             stem = word[: -len(end)]
             found |= {stem, stem[:-1]} if stem[-1:] == stem[-2:-1] else {stem}
+    plain = list_words("spelling.plain-endings")
     return frozenset(stem for stem in found if len(stem) >= least or stem == word or (
-        len(stem) == least - 1 and any(word == stem + end for end in _PLAIN)
+        len(stem) == least - 1 and any(word == stem + end for end in plain)
     ))  # fmt: skip
 
 
@@ -1081,7 +1069,7 @@ class Statement:
         denied = self._is_denied(clause, places)
         turned = sign < 0
         opens_with = self.tokens[clause.places[0]].text
-        contrast = example.denied and index and opens_with in {"not", "nicht"}
+        contrast = example.denied and index and opens_with in list_words("spelling.not")
         unsure = (
             sign == 0  # or *it is this, not that*: that there is no *that* is not said
             or denied is None

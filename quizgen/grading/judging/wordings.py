@@ -23,7 +23,7 @@ from quizgen.grading.judging.statements import list_clause_words
 from quizgen.grading.reading.answer_reader import says_otherwise
 from quizgen.grading.reading.number_words import list_number_words
 from quizgen.locale import cache_words
-from quizgen.locale.word_patterns import WordPattern, list_tables, list_words, set_of_words
+from quizgen.locale.word_patterns import WordPattern, list_rows, list_tables, set_of_words
 
 _TOKEN = re.compile(
     r"[-+−]?(?:\d+/)?√?\d+(?:[.,]\d+)?(?:/√?\d+)?|[^\W\d_]+/\d+|(?:[^\W\d_]|[\u0980-\u09ff])+\d*"
@@ -391,8 +391,7 @@ _ENDING = WordPattern(r"(?<=..)«wordings.endings»$")
 @cache_words
 def _load_shares() -> dict[str, str]:
     """Return the shares in words of all languages to fractions."""
-    rows = (row.split(" ", 1) for row in list_words("wordings.shares"))
-    return {word: share for share, word in rows}
+    return {word: share for share, word in list_rows("wordings.shares")}
 
 
 @cache_words
