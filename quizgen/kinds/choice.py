@@ -11,7 +11,7 @@ import msgspec
 
 from quizgen.core.errors import FormulaError
 from quizgen.grading.echo import safe_echo
-from quizgen.grading.judging.likeness import read_count
+from quizgen.grading.judging.likeness import list_ordinals, read_count
 from quizgen.grading.judging.spelling import fold_word
 from quizgen.grading.judging.wordings import find_wording_in, holds_wording, share_words
 from quizgen.grading.options import GradingOptions
@@ -33,8 +33,8 @@ from quizgen.kinds.contract import (
     PartContext,
 )
 from quizgen.kinds.work import Work
-from quizgen.locale import cache_words, fallback_language, translate
-from quizgen.locale.word_patterns import WordPattern, list_tables, set_of_words
+from quizgen.locale import fallback_language, translate
+from quizgen.locale.word_patterns import WordPattern, set_of_words
 from quizgen.maths.notation import FormulaReadError
 
 _FEWEST_VALUES = 2
@@ -391,7 +391,7 @@ def _read_places(text: str, count: int) -> list[int]:
     """Return the places of ``the fourth``, ``the last one``, ``the first two``; none of others."""
     idle = set_of_words("articles") | set_of_words("choices.place-nouns")
     words = [word for word in text.casefold().split() if word not in idle]
-    counted = [_list_ordinals().get(word, 0) for word in words]
+    counted = [list_ordinals().get(word, 0) for word in words]
     if len(words) == 1 and words[0] in set_of_words("choices.last"):
         return [count]
     if len(words) == 1 and counted[0]:
@@ -402,17 +402,6 @@ def _read_places(text: str, count: int) -> list[int]:
     if words[0] in set_of_words("choices.last"):
         return list(range(count - many + 1, count + 1))
     return list(range(1, many + 1)) if counted[0] == 1 else []
-
-
-@cache_words
-def _list_ordinals() -> dict[str, int]:
-    """Return what a place is called in any language, with its number."""
-    return {
-        word.casefold(): place
-        for table in list_tables("ordinals")
-        for place, row in enumerate(table["counted"], 1)
-        for word in row.split("|")
-    }
 
 
 _LETTER_AHEAD = WordPattern(
@@ -495,13 +484,27 @@ def _read_set_apart(spec: ChoiceSpec, typed: str) -> list[int]:
         if match is None:
             continue
         try:
-            kept = _read_options(spec, match["kept"])
-            denied = _read_options(spec, _NOT.sub("", match["denied"]))
+            kept = _read_part(spec, match["kept"])
+            denied = _read_part(spec, _NOT.sub("", match["denied"]))
         except FormulaReadError:
             continue
-        if not {*kept} & {*denied}:
+        if kept and denied and not {*kept} & {*denied}:
             return kept
     return []
+
+
+def _read_part(spec: ChoiceSpec, text: str) -> list[int]:
+    """Return the options of what is set apart: one clause of a choice, letters or words of several.
+
+    Raises
+    ------
+    FormulaReadError
+        If there is none.
+    """
+    if spec.kind == "multi":
+        return _read_options(spec, text)
+    place = _read_plainly(spec, text)
+    return [place] if place else []
 
 
 def _read_last_word(spec: ChoiceSpec, typed: str) -> list[int]:
@@ -551,17 +554,22 @@ def _read_plainly(spec: ChoiceSpec, text: str) -> int:
 
 def _read_kept_clause(spec: ChoiceSpec, text: str) -> int:
     """Return the only option that a clause names, beside others that are denied; 0 without any."""
-    kept, denied = set[int](), set[int]()
+    kept, denied, unclear = set[int](), set[int](), list[str]()
     known = [text for texts in (spec.choices(), *spec.said) for text in texts]
     for piece in _CLAUSES.split(text):
         out = _NEGATED.fullmatch(piece.strip(_AROUND))
         if out:
             listed = _ALTERNATIVE.split(out["out"] or out["before"])
             denied |= {_read_plainly(spec, one) or -share_words(one, known) for one in listed}
+            unclear += [one for one in listed if not _read_plainly(spec, one)]
         else:
             kept.add(_read_plainly(spec, piece))
     kept -= {0}
-    return kept.pop() if denied - {0} and len(kept) == 1 and not kept & denied else 0
+    if len(kept) != 1 or not denied - {0} or kept & denied:
+        return 0
+    (place,) = kept
+    own = [texts[place - 1] for texts in (spec.choices(), *spec.said)]
+    return 0 if any(share_words(one, own) for one in unclear) else place
 
 
 _CORRECTED = WordPattern(
@@ -598,7 +606,10 @@ def _find_option_by_its_end(spec: ChoiceSpec, typed: str) -> list[int]:
         for place, option in enumerate(spec.choices(), 1)
         if re.search(rf"(?<!\w){re.escape(words)}$", option.casefold().strip(_AROUND))
     ]
-    return [] if len(hits) != 1 or says_otherwise(hits[0][1]) else [hits[0][0]]
+    holding = [option for option in spec.choices() if words in option.casefold()]
+    if len(hits) != 1 or len(holding) != 1 or says_otherwise(hits[0][1]):
+        return []
+    return [hits[0][0]]
 
 
 def _read_truth_value(spec: ChoiceSpec, typed: str) -> int:
@@ -719,17 +730,22 @@ def _parse_labelled_option(spec: ChoiceSpec, piece: str) -> int:
     meant = _find_meant_options(spec, match["words"], foreign=bool(_SET_OFF.search(text)))
     if not 1 <= position <= len(spec.choices()):
         return 0
-    if not meant and mark.isupper() and not is_denied(match["words"]):
-        own = [texts[position - 1] for texts in (spec.choices(), *spec.said)]
-        told = _BANGLA_WORDS.fullmatch(match["words"]) or share_words(match["words"], own)
-        return position if told and not _ALTERNATIVE.search(match["words"]) else 0
     if not meant:
-        return 0
-    if position not in meant and text.startswith("a ") and len(meant) == 1:
-        return meant[0]  # the article of "a smaller spot", and no letter
-    if position not in meant:
+        return position if _is_own_reason(spec, position, mark, match["words"]) else 0
+    if text.startswith("a "):  # the article of "a smaller spot", and no letter
+        return meant[0] if len(meant) == 1 else 0
+    whole = _find_wording(spec, text) if mark.isdecimal() and not _SET_OFF.search(text) else 0
+    if not whole and position not in meant:
         raise FormulaReadError("two-readings", 1, safe_echo(piece))
-    return position
+    return whole or position  # the number of "4 times as much" is no place
+
+
+def _is_own_reason(spec: ChoiceSpec, position: int, mark: str, words: str) -> bool:
+    """Return whether words behind a letter, which name no option, go with the one of the letter."""
+    if not mark.isupper() or is_denied(words) or _ALTERNATIVE.search(words):
+        return False
+    own = [texts[position - 1] for texts in (spec.choices(), *spec.said)]
+    return bool(_BANGLA_WORDS.fullmatch(words)) or share_words(words, own)
 
 
 def _find_meant_options(spec: ChoiceSpec, words: str, *, foreign: bool) -> list[int]:

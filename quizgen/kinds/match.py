@@ -10,6 +10,7 @@ from typing import ClassVar
 import msgspec
 
 from quizgen.grading.echo import safe_echo
+from quizgen.grading.judging.likeness import list_ordinals
 from quizgen.grading.judging.spelling import fold_word
 from quizgen.grading.judging.wordings import find_wording, find_wording_in, holds_wording
 from quizgen.grading.options import GradingOptions
@@ -34,6 +35,10 @@ from quizgen.maths.notation import FormulaReadError
 
 _SEPARATORS = re.compile(r"[\s,;.|&\[\]{}।॥]+")
 _ARROWS = re.compile(r"\s*(?:->|=>|<->|--|[-:=>()→↔⇒⇔⟶⟷↦])+\s*|(?<=\w)[/_](?=\w)")
+_TAKEN_BACK = WordPattern(
+    r"\b([A-Z]) ?[:=→-]? ?\d+[,;]? «choices.correcting»[,:]? (?=\1)", re.IGNORECASE
+)
+"""A pair behind which the same left side stands again: ``C3 no C5``."""
 _PAIRED = re.compile(r"[:=→⇒]|->|(?<![\w.,/])\d(?![\w.,/°])")
 """A sign or a number by which a piece is a pair, and not only its right side."""
 _COMMAS = re.compile(r"[;,\n](?![^(]*\))\s*")
@@ -192,7 +197,7 @@ def _read_pairs(spec: MatchSpec, typed: str) -> dict[str, str]:
     FormulaReadError
         If no pairs can be read, or a label is used twice.
     """
-    typed = _LEFT_OVER.sub("", typed.strip())
+    typed = _TAKEN_BACK.sub("", _LEFT_OVER.sub("", typed.strip()))
     source = normalise_typed(re.sub(r"[\r\n]+", " ", typed), keep_x=True, longest=1000)
     text = PICTURES.sub(" ", source.text)
     text = LONE_LETTER.sub(lambda letter: letter[0].translate(BANGLA_LETTERS), text)
@@ -328,9 +333,17 @@ def _read_tokens(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
         return [(left, right) for left in lefts] if right else []
     if len(digits) == 1 and digits[0] in _list_targets(spec):
         words = " ".join(token for token in tokens if token not in digits)
-        left = _find_side(spec, words, list(spec.pairs))
+        left = _find_side(spec, words, list(spec.pairs)) or _find_place(spec, words)
         return [(left, digits[0])] if left else []
     return []
+
+
+def _find_place(spec: MatchSpec, words: str) -> str:
+    """Return the label of the left side that is called by its place, ``first one``; else empty."""
+    idle = set_of_words("choices.place-nouns") | set_of_words("articles")
+    kept = [word for word in words.casefold().split() if word not in idle]
+    place = list_ordinals().get(kept[0], 0) if len(kept) == 1 else 0
+    return list(spec.pairs)[place - 1] if 1 <= place <= len(spec.pairs) else ""
 
 
 def _read_sides(spec: MatchSpec, group: str) -> list[tuple[str, str]]:

@@ -162,6 +162,17 @@ def _is_slip(word: str, other: str) -> bool:
 
 
 @cache_words
+def list_ordinals() -> dict[str, int]:
+    """Return what a place is called in any language, with its number: ``first``."""
+    return {
+        word.casefold(): place
+        for table in list_tables("ordinals")
+        for place, row in enumerate(table["counted"], 1)
+        for word in row.split("|")
+    }
+
+
+@cache_words
 def _list_multiples() -> dict[str, int]:
     """Return words that are a factor by themselves, with it: ``twice``."""
     rows = (row.split(" ", 1) for row in list_words("factors.multiples"))
@@ -262,13 +273,28 @@ def _agree(said: Sequence[str], strangers: Sequence[str], meant: Clauses) -> boo
     }
     if not touched:
         return True
-    if _denies(spoken) != _denies(touched):
+    if _denies(spoken) != _denies(touched) or are_opposed(spoken, touched):
         return False
     if any(word in list_clause_words("doubts") for word in strangers):
         return False
     if any(not _is_word(word) or read_count(word) > 1 for word in strangers):
         return False
     return _point_one_way(spoken, strangers, {word for clause in meant for word in clause})
+
+
+def are_opposed(said: Collection[str], wanted: Collection[str]) -> bool:
+    """Return whether an answer has one of two opposite words, and a wording only the other one."""
+    for row in _load_opposites():
+        told, asked = row & {*said}, row & {*wanted}
+        if told and asked and not told & asked:
+            return True
+    return False
+
+
+@cache_words
+def _load_opposites() -> tuple[frozenset[str], ...]:
+    """Return the rows of words of which only one can hold, folded, of all languages."""
+    return tuple(frozenset(map(fold_word, row.split())) for row in list_words("wordings.opposites"))
 
 
 def _denies(words: Collection[str]) -> bool:

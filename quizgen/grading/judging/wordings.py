@@ -12,7 +12,13 @@ from collections.abc import Collection, Sequence
 from functools import partial
 from itertools import pairwise
 
-from quizgen.grading.judging.likeness import find_likest, list_senses, tells_all
+from quizgen.grading.judging.likeness import (
+    are_opposed,
+    find_likest,
+    list_ordinals,
+    list_senses,
+    tells_all,
+)
 from quizgen.grading.judging.spelling import (
     allowed_typos,
     find_translation,
@@ -23,7 +29,12 @@ from quizgen.grading.judging.statements import list_clause_words
 from quizgen.grading.reading.answer_reader import says_otherwise
 from quizgen.grading.reading.number_words import list_number_words
 from quizgen.locale import cache_words
-from quizgen.locale.word_patterns import WordPattern, list_rows, list_tables, set_of_words
+from quizgen.locale.word_patterns import (
+    WordPattern,
+    list_rows,
+    list_tables,
+    set_of_words,
+)
 
 _TOKEN = re.compile(
     r"[-+−]?(?:\d+/)?√?\d+(?:[.,]\d+)?(?:/√?\d+)?|[^\W\d_]+/\d+|(?:[^\W\d_]|[\u0980-\u09ff])+\d*"
@@ -77,7 +88,7 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
         hits = [
             place
             for place in _find_nearest(meant & known, listed)
-            if len(listed[place - 1]) <= 2 * len(meant & known)
+            if all_named or 3 * len(listed[place - 1]) <= 4 * len(meant & known)
         ]
     if len(hits) != 1:
         return 0
@@ -93,7 +104,11 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
         return 0
     if not all_named and not _says_enough(_split_words(wordings[hits[0] - 1]), meant, listed):
         return 0
-    denied = says_otherwise(" ".join(more)) or _denies(wanted) != _denies(meant)
+    denied = (
+        says_otherwise(" ".join(more))
+        or _denies(wanted) != _denies(meant)
+        or are_opposed(meant, wanted)
+    )
     return 0 if denied else hits[0]
 
 
@@ -139,6 +154,8 @@ def find_verbatim(typed: str, wordings: Sequence[str]) -> int:
     """
     piece = _squeeze(typed)
     least = LEAST_TOLD - piece.isupper()
+    if _denies(frozenset(_split_words(typed))):
+        return 0
     if len(piece) < least or not (_SIGN.search(piece) or piece.isupper()):
         return 0
     shape = re.compile(rf"(?<![\w.]){re.escape(piece)}(?![\w.]|[*/^]|\()")
@@ -247,6 +264,7 @@ def _is_little_more(words: frozenset[str]) -> bool:
         or _denies(words)
         or says_otherwise(" ".join(words))
         or any(word.isdecimal() or word in list_number_words() for word in words)
+        or words & list_ordinals().keys()
     )
 
 
