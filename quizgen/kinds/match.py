@@ -367,7 +367,7 @@ def _find_numbered_pair(spec: MatchSpec, words: str, number: str) -> tuple[str, 
     if named:
         return (named, number) if meant in {"", number} and not is_denied(rest) else None
     spoken = words.split()
-    heads = (" ".join(spoken[:cut]) for cut in range(len(spoken), 0, -1))
+    heads = (" ".join(spoken[:cut]) for cut in range(min(len(spoken), MOST_WORDS), 0, -1))
     left = next(filter(None, (_find_side(spec, head, list(spec.pairs)) for head in heads)), "")
     return (left, number) if left else None
 

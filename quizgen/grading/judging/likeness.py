@@ -72,7 +72,7 @@ def find_likest(
             worded = [
                 word for word in told if place in _find_places(word, wordings, _says_the_same)
             ]
-            clear = (worded or all_named or not strangers) and _is_enough(
+            clear = (worded or all_named) and _is_enough(
                 told, strangers, words, all_named=all_named
             )
             if clear and all(_agree(said, strangers, texts[place]) for texts in languages):

@@ -120,6 +120,12 @@ def find_wording_in(
     German words that are no language of the bank are tried as what they say in English. Places
     that differ between languages mean none.
     """
+    return _find_meant(typed, tuple(map(tuple, languages)), all_named)
+
+
+@partial(cache_words, most=4096)
+def _find_meant(typed: str, languages: tuple[tuple[str, ...], ...], all_named: bool) -> int:
+    """Return what ``find_wording_in`` does; a pair is cut at many places to find its sides."""
     verbatim = {find_verbatim(typed, wordings) for wordings in languages} - {0}
     if len(verbatim) == 1:
         return verbatim.pop()
