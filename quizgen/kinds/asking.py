@@ -15,7 +15,14 @@ from quizgen.core.decoding import convert
 from quizgen.core.errors import FormulaError
 from quizgen.grading.judge import show_spec
 from quizgen.grading.spec import AnySpec, NumericSpec, ScalarSpec, VectorSpec
-from quizgen.kinds.contract import AskedPart, LabelledName, PartContext, S, asked_quantities
+from quizgen.kinds.contract import (
+    AskedPart,
+    LabelledName,
+    PartContext,
+    S,
+    asked_form,
+    asked_quantities,
+)
 from quizgen.locale import localise_numbers, translate
 from quizgen.maths.constants import Scalar, parse_exact
 from quizgen.maths.notation import pretty
@@ -52,6 +59,8 @@ def make_spec(shape: type[S], part: PartContext, **given: object) -> S:
     answer = part.answer
     fields = {*shape.__struct_encode_fields__} - {"of"}
     table = {name: value for name, value in answer.items() if name in fields}
+    if form := asked_form(answer):
+        given = {"of": [form], **given}
     if "accept" in answer:
         table["accept"] = [format_for_key(part.evaluate(str(bound))) for bound in answer["accept"]]
     try:

@@ -94,6 +94,10 @@ class EquationSpec(WordSpec, kw_only=True, frozen=True):
         same = values_agree(found.ratio, fmpq(0)) is False
         return same and (own.op == "eq" or bool(found.ratio > 0))
 
+    def replace_key(self, form: Expr, /) -> EquationSpec:
+        """Return the specification with another equation as its key, and without mistakes."""
+        return msgspec.structs.replace(self, value=format_tree(form), traps={})
+
     def show(self) -> str:
         """Return the key as it is printed, and as it can be typed back."""
         return pretty.format_formula(format_tree(parse_authored(self.value, tuple(self.symbols))))

@@ -137,6 +137,18 @@ class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
         last = verdicts[-1]
         return msgspec.structs.replace(last, read_as=self._name_calls(last.read_as))
 
+    def read_form(self, typed: str, options: GradingOptions, /) -> Expr:
+        """Return the last side of a typed formula; errors as ``judge``."""
+        names = (*self.symbols, CONSTANT) if self.up_to == "constant" else tuple(self.symbols)
+        side = split_sides(typed, names)[-1]
+        tree = read_formula(side, names, options.decimal).tree
+        return tree if CONSTANT in self.symbols else substitute(tree, {CONSTANT: _ZERO})
+
+    def replace_key(self, form: Expr, /) -> ExpressionSpec:
+        """Return the specification with another formula as its key, and without mistakes."""
+        symbols = dict.fromkeys(names_in(form), "real") | self.symbols
+        return msgspec.structs.replace(self, value=format_tree(form), traps={}, symbols=symbols)
+
     def _name_calls(self, text: str) -> str:
         """Return a formula for people with the calls of functions as they are written."""
         for name, call in self.calls.items():

@@ -418,7 +418,7 @@ def _iter_labelled_items(
     fronts, rest = split_prefix(source)
     if fronts:
         items, _ = read_list(rest.text, len(fronts), decimal)
-        yield from zip(fronts, items, strict=True)
+        yield from zip((front.text for front in fronts), items, strict=True)
         return
     inner, _ = strip_brackets(source)
     source = inner if inner.text[:1] == "(" else source

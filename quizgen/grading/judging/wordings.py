@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Collection, Sequence
-from functools import partial
+from functools import lru_cache, partial
 from itertools import pairwise
 
 from quizgen.grading.judging.likeness import (
@@ -219,13 +219,14 @@ LEAST_TOLD = 3
 """Letters of a wording that can be recognised in a sentence."""
 
 
-def _list_names_of(wording: str) -> set[frozenset[str]]:
+@lru_cache(maxsize=4096)
+def _list_names_of(wording: str) -> frozenset[frozenset[str]]:
     """Return the words of a wording, and of what stands for all of it beside a comma or a bracket.
 
     ``the long ones, 600 to 700 nm (red)`` has three names.
     """
     parts = _APART.split(wording) if _APART.search(wording) else []
-    return {frozenset(_split_words(part)) for part in (wording, *parts)} - {frozenset()}
+    return frozenset(frozenset(_split_words(part)) for part in (wording, *parts)) - {frozenset()}
 
 
 _APART = re.compile(r"(?<!\d)[,;](?= )|(?<=\d)[,;](?= [^\W\d])|[()]|:(?= )")

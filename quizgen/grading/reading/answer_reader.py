@@ -28,6 +28,12 @@ from quizgen.grading.reading.number_words import (
     replace_only_number_word,
 )
 from quizgen.grading.reading.source_map import SourceText
+from quizgen.grading.reading.spoken_values import (
+    find_given_value,
+    list_meant_values,
+    write_spoken_formula,
+    write_spoken_value,
+)
 from quizgen.grading.reading.units import read_unit
 from quizgen.locale import cache_words, list_languages, load_words
 from quizgen.locale.word_patterns import WordPattern, set_of_words
@@ -217,6 +223,7 @@ def list_plainer_texts(
         if form == "values":
             yield from _list_plainer_values(spelt, names, ranges=ranges)
         else:
+            yield from list_meant_values(spelt)
             yield from _single_answer(spelt, form)
             yield from _find_conclusion(spelt)
 
@@ -251,7 +258,7 @@ _INDEXED = re.compile(r"(^|[,;/\n] *)(\d{1,4}) ?[:=] ?(?=[-+−.]?\d)")
 
 def _list_barer_formulas(text: str) -> Iterator[str]:
     """Yield a formula without words behind it, and the last side of several."""
-    text = _WORDS_BEHIND.sub("", text)
+    text = write_spoken_formula(_WORDS_BEHIND.sub("", text))
     yield text
     if "=" in text:
         yield text.rpartition("=")[2]
@@ -305,6 +312,9 @@ def _find_conclusion(text: str) -> Iterator[str]:
         concluded = shape.fullmatch(text)
         if concluded and not says_otherwise(concluded["rest"]):
             yield add_mixed_units(concluded["rest"].rpartition("=")[2].strip() or text)
+    said, given = find_given_value(text)
+    if given and not is_denied(said):
+        yield given
 
 
 _CONCLUDED = WordPattern(
@@ -439,7 +449,7 @@ def _write_words_as_numbers(text: str) -> str:
     text = _load_around_words().rounded.sub(" ≈ ", _UNDERSCORED.sub("", text))
     typed_array = _TYPED_NUMBER.fullmatch(text)
     text = typed_array[1] if typed_array else text
-    text = _write_share_of_unit(text)
+    text = write_spoken_value(_write_share_of_unit(text))
     signed = _SIGNED.sub("", text)
     sign = "-" if signed != text and not signed.startswith(("-", "−", "–")) else ""
     spelt = _SPOKEN_POINT.sub(".", _THOUSANDS.sub(" thousand", signed if sign else text))

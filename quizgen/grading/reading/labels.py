@@ -38,6 +38,20 @@ def split_name(item: SourceText) -> tuple[str, SourceText]:
     return match[1].strip(), item.slice(match.end())
 
 
+def put_names_first(typed: str, names: AskedNames) -> str:
+    """Return ``v = 700; u = 576`` for ``700 = v; 576 = u``, if all of it is written so."""
+    if "=" not in typed:
+        return typed
+    pieces = [_NAME_LAST.fullmatch(piece.strip()) for piece in re.split(r"[;\n]|,(?!\d)", typed)]
+    found = [piece for piece in pieces if piece]
+    if len(found) < len(pieces) or not all(find_name(piece[2], names) for piece in found):
+        return typed
+    return "; ".join(f"{piece[2]} = {piece[1]}" for piece in found)
+
+
+_NAME_LAST = re.compile(rf"([-+−]?\d[^=:;]*?) ?= ?({NAME})")
+
+
 def name_key(name: str) -> str:
     """Return the spelling that names are compared by."""
     return _INSIDE.sub("", fold_name(name))

@@ -72,6 +72,9 @@ def _on_line(match: re.Match[str]) -> str:
     return f"_{below}" if match.string[match.start() - 1 : match.start()] == "'" else below
 
 
+_RAISED_MINUS = LOWERED | str.maketrans("−–", "--")
+"""Raised signs on the line, and the minus that no keyboard raises: ``10-²``."""
+
 REWRITES: dict[str, Rewrite] = {
     "direction marks around": (re.compile(f"^[{_DIRECTION}]+|[{_DIRECTION}]+$"), lambda _m: ""),
     "blanks": (re.compile(f"[{_BLANKS}]"), lambda _m: " "),
@@ -97,8 +100,8 @@ REWRITES: dict[str, Rewrite] = {
         _make_character_replacer(dict(zip("⟨⟩〈〉", "()()", strict=True))),
     ),
     "superscripts": (
-        re.compile(r"[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+"),
-        lambda m: "^" + (f"({t})" if len(t := m[0].translate(LOWERED)) > 1 else t),
+        re.compile(r"(?:[⁺⁻−]|(?<=10)[-–])?[⁰¹²³⁴⁵⁶⁷⁸⁹]+"),
+        lambda m: "^" + (f"({t})" if len(t := m[0].translate(_RAISED_MINUS)) > 1 else t),
     ),
     "subscripts": (re.compile(f"[{BELOW}]+"), _on_line),
     "vulgar fractions": (re.compile(r"(\d*) ?([¼-¾⅐-⅞])"), _rewrite_vulgar_fraction),

@@ -191,9 +191,9 @@ def ask(drawn: Variant, lang: str) -> LevelQuestion:
     solution = replace(usual.solution, parts=tuple(part.solved for part in parts))
     stem = usual.stem if len(groups) > 1 else tuple(map(without_bold_questions, usual.stem))
     added = len(parts) - len(usual.parts)
-    made = [part for group in groups if len(group) > 1 for part in group]
+    before = (part for group in groups for part in group[:-1])
     minutes = sum(
-        (estimate_part_minutes(part, solved=True) for part in made), drawn.template.minutes
+        (estimate_part_minutes(part, added=True) for part in before), drawn.template.minutes
     )
     return LevelQuestion(stem, parts, solution, minutes if added else None)
 

@@ -100,7 +100,7 @@ def ask(drawn: Variant, lang: str) -> LevelQuestion:
 
 def _count_minutes(made: list[LevelPart], kept: Iterable[int]) -> Fraction:
     """Return the minutes for reading the task and answering the parts at some places."""
-    return sum((estimate_part_minutes(made[place], solved=False) for place in kept), READ_TASK)
+    return sum((estimate_part_minutes(made[place], added=False) for place in kept), READ_TASK)
 
 
 def _relabel_part(part: LevelPart, label: str, points: Fraction) -> LevelPart:
