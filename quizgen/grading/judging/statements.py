@@ -767,7 +767,7 @@ class Statement:
                 of = clause.sentence
                 if not mine or (index < mine[0] and self._points_back(clause)):
                     of -= 1
-                clause.doubted = True
+                clause.doubted = index > 0
                 for other in clauses[:index]:
                     other.doubted |= other.sentence == of
 
@@ -1236,7 +1236,13 @@ class Statement:
         heads = clause.denials + clause.ahead
         if not example.denied or example.size > LONE or not heads:
             return False
-        return all(at > places[-1] + 1 for at in heads)
+        fillers = _vocabulary().fillers
+        return not any(
+            at <= places[-1] + 1  # where verbs come last, so does what denies them
+            or (at == clause.places[-1]
+                and all(self.tokens[one].text in fillers for one in range(places[-1] + 1, at)))
+            for at in heads
+        )  # fmt: skip
 
     def _has_degree(self, clause: _Clause, places: tuple[int, ...], example: Example) -> bool:
         """Return whether a word of low degree, such as ``less``, stands before one that is meant.
