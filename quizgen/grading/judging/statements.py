@@ -130,7 +130,6 @@ class _Vocabulary:
     ended: frozenset[tuple[str, ...]]
     conditions: frozenset[str]
     harmless: frozenset[tuple[str, ...]]
-    frames: tuple[tuple[str, ...], ...]
     that: frozenset[str]
     pointers: frozenset[str]
     speech: frozenset[str]
@@ -142,6 +141,7 @@ class _Vocabulary:
     helpers: frozenset[str]
     degrees: frozenset[str]
     fillers: frozenset[str]
+    grammar: frozenset[str]
     scales: Mapping[str, tuple[Scale, ...]]
     stems: tuple[tuple[str, Scale], ...]
     phrases: tuple[tuple[tuple[str, ...], Scale], ...]
@@ -181,7 +181,6 @@ def _vocabulary() -> _Vocabulary:
         frozenset(rows("ended")),
         words("conditions"),
         frozenset(rows("harmless")),
-        tuple(rows("frames")),
         words("that"),
         words("pointers"),
         words("speech"),
@@ -193,6 +192,7 @@ def _vocabulary() -> _Vocabulary:
         words("helpers"),
         words("degrees"),
         words("fillers"),
+        frozenset().union(*map(words, (*_OF_REMARKS, "helpers", "breaks"))),
         _group_scales(ends),
         tuple((fold_word(word[:-1]), end) for word, end in ends if word.endswith("-")),
         tuple((_fold_row(word), end) for word, end in ends if " " in word),
@@ -308,7 +308,7 @@ def is_form_of(word: str, wanted: str, *, slips: bool = True) -> bool:
         return True
     if _stems(word) & _stems(wanted):
         return True
-    if not slips:
+    if not slips or word in _vocabulary().grammar:
         return False
     return _is_slip(word, wanted) or any(
         len(stem) > SHORTEST + 1 and _is_slip(typed, stem)
@@ -646,7 +646,6 @@ class Statement:
         ]  # fmt: skip
         for clause in found:
             self._read_denials(clause)
-        self._spread_frames(found)
         self._spread_remarks(found)
         return found
 
@@ -723,27 +722,6 @@ class Statement:
         nearby = words[max(0, index - 3) : index]
         return words[index] != "not" or any(word in _vocabulary().helpers for word in nearby)
 
-    def _spread_frames(self, clauses: list[_Clause]) -> None:
-        """Deny all of a sentence that begins with ``it is not true that``."""
-        for index, clause in enumerate(clauses):
-            words = [self.tokens[at].text for at in clause.places]
-            framed = any(
-                tuple(words[at : at + len(row)]) == row
-                for row in _vocabulary().frames
-                for at in range(len(words))
-            )
-            if not framed:
-                continue
-            clause.denials, clause.whole = [], 0
-            mark = clause.places[-1]
-            for other in clauses[index:]:
-                if other.sentence == clause.sentence:
-                    other.denials.append(mark)
-                    other.whole += 1
-            if index and clauses[index - 1].sentence == clause.sentence and len(words) <= 5:
-                clauses[index - 1].denials.append(mark)
-                clauses[index - 1].whole += 1
-
     def _spread_remarks(self, clauses: list[_Clause]) -> None:
         """Doubt what a remark denies: *nobody would say that ...*, *..., which is wrong*.
 
@@ -754,6 +732,7 @@ class Statement:
         for index, clause in enumerate(clauses):
             begins = not index or clauses[index - 1].sentence != clause.sentence
             behind = self._count_remark(clauses, index) if begins else 0
+            clause.doubted |= index > 0 and clause.corrects
             if behind:
                 for other in clauses[index + behind - 1 :]:
                     other.doubted |= other.sentence == clause.sentence
