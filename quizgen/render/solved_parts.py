@@ -13,7 +13,6 @@ from functools import lru_cache
 from quizgen import typeset
 from quizgen.core.shares import rescale_points
 from quizgen.locale import format_amount, translate
-from quizgen.question.inlines import name_inline
 from quizgen.question.mark_scheme import SideMark, mark_steps
 from quizgen.question.solution import (
     PartSolution,
@@ -34,6 +33,7 @@ from quizgen.render.typst_document import (
     typst_literal,
     typst_passage,
 )
+from quizgen.typeset.prose import name_inline
 
 
 def typeset_solved_part(one: PaperPart, drawing: str) -> str:

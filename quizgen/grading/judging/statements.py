@@ -16,7 +16,7 @@ import re
 import unicodedata
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cache, cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from typing import Literal, NamedTuple
 
 from quizgen.grading.judging.spelling import (
@@ -25,7 +25,8 @@ from quizgen.grading.judging.spelling import (
     is_another_word,
     typo_distance,
 )
-from quizgen.locale import list_languages, load_words
+from quizgen.locale import cache_words, list_languages, load_words
+from quizgen.locale.word_patterns import list_words
 
 Meaning = Literal["said", "half", "denied", "open"]
 """What a clause does with an idea; ``open`` where its words are there and its sign is not sure."""
@@ -106,7 +107,7 @@ def _split_prefix(word: str) -> tuple[str, ...]:
         return ("not",)
     word = word.removesuffix("'s").strip("'")
     folded = fold_word(word) or word
-    for prefix in ("non", "nicht"):
+    for prefix in list_words("spelling.denying-prefixes"):
         if folded.startswith(prefix) and len(folded) >= len(prefix) + SHORTEST + 1:
             return ("not", folded.removeprefix(prefix))
     return (folded,)
@@ -152,7 +153,7 @@ _OF_REMARKS = ("that", "speech", "verdicts", "remarks", "denials", "fillers")
 """Lists of words of which a remark on another statement is made, and nothing else."""
 
 
-@cache
+@cache_words
 def _vocabulary() -> _Vocabulary:
     """Return the words of all languages, read once."""
     tables = [table for lang in list_languages() if (table := load_words(lang, "statements"))]
@@ -200,6 +201,17 @@ def _vocabulary() -> _Vocabulary:
     )
 
 
+@cache_words
+def list_clause_words(name: str) -> frozenset[str]:
+    """Return the single words of a list of clauses in all languages, folded: ``denials``."""
+    return frozenset(
+        fold_word(word)
+        for lang in list_languages()
+        for word in load_words(lang, "statements")["clauses"].get(name, ())
+        if " " not in word
+    )
+
+
 def _group_scales(ends: Iterable[tuple[str, Scale]]) -> dict[str, tuple[Scale, ...]]:
     """Return each single word with the ends of scales that it stands for."""
     found: dict[str, tuple[Scale, ...]] = {}
@@ -227,7 +239,7 @@ def _fold_row(text: str) -> tuple[str, ...]:
 
 
 @lru_cache(maxsize=8192)
-def _scales_of(word: str, *, slips: bool = True) -> tuple[Scale, ...]:
+def find_scales(word: str, *, slips: bool = True) -> tuple[Scale, ...]:
     """Return the ends of scales that a word stands for, with ``slips`` those of the fingers too."""
     known = _vocabulary()
     if word in known.scales:
@@ -262,31 +274,18 @@ def _is_near_stem(word: str, stem: str) -> bool:
     return any(_is_slip(word[:size], stem) for size in (len(stem) - 1, len(stem), len(stem) + 1))
 
 
-_ENDINGS = (
-    ("ation", "ations", "ating", "ated", "ates", "ate", "ator", "ational"),
-    ("ity", "ities", "ive", "ively", "ion", "ions", "ing", "ings", "ed", "es", "s", "er", "ers",
-     "est", "ly", "y", "al", "ally", "ment", "ness", "e", "ier", "iest", "ies", "ied"),
-    ("ieren", "iert", "ierte", "ierten", "ierung", "en", "em", "ste", "sten", "ere", "eren",
-     "t", "te", "ten", "et", "ung", "ungen", "n"),
-    ("এর", "ের", "তে", "টা", "টি", "টার", "টির", "গুলো", "গুলোর", "গুলি", "কে", "য়", "র", "ে",
-     "রা", "দের", "ায়", "া", "েই", "ই", "ও"),
-)  # fmt: skip
-_PLAIN = frozenset({"s", "ed", "ing", "es"})
-"""Endings that leave a stem of three letters, too: adds, added."""
-_SUFFIXES = sorted({end for group in _ENDINGS for end in group}, key=len, reverse=True)
-
-
-@lru_cache(maxsize=8192)
+@partial(cache_words, most=8192)
 def _stems(word: str) -> frozenset[str]:
     """Return a folded word, and what is left of it without each ending that leaves a stem."""
     least = SHORTEST if word.isascii() else 2
     found = {word}
-    for end in _SUFFIXES:
+    for end in list_words("spelling.endings"):
         if word.endswith(end):
             stem = word[: -len(end)]
             found |= {stem, stem[:-1]} if stem[-1:] == stem[-2:-1] else {stem}
+    plain = list_words("spelling.plain-endings")
     return frozenset(stem for stem in found if len(stem) >= least or stem == word or (
-        len(stem) == least - 1 and any(word == stem + end for end in _PLAIN)
+        len(stem) == least - 1 and any(word == stem + end for end in plain)
     ))  # fmt: skip
 
 
@@ -324,6 +323,11 @@ class _Item:
     rows: tuple[tuple[str, ...], ...] = ()
     scales: tuple[Scale, ...] = ()
     formula: bool = False
+
+    @cached_property
+    def begins(self) -> frozenset[str]:
+        """Return the words that its rows begin with."""
+        return frozenset(row[0] for row in self.rows)
 
     @property
     def is_general(self) -> bool:
@@ -396,6 +400,8 @@ class Subject:
                 for stem in _stems(row[0]):
                     self._begins.setdefault(stem, []).append((index, row))
         self._read: dict[tuple[str, Meaning], Example] = {}
+        self._items: dict[_Item, _Item] = {}
+        self._words: dict[tuple[tuple[str, Meaning], ...], ExampleWords] = {}
 
     def find(
         self, tokens: Sequence[WordToken], place: int
@@ -424,6 +430,70 @@ class Subject:
         if known is None:
             known = self._read[text, meaning] = _read_example(text, meaning, self)
         return known
+
+    def share_item(self, item: _Item) -> _Item:
+        """Return the one item that stands for all that are equal to it."""
+        return self._items.setdefault(item, item)
+
+    def collect_words(
+        self, examples: Sequence[Example], mistakes: Sequence[Example]
+    ) -> ExampleWords:
+        """Return the words of examples of a part and of its mistakes, the same for the same ones.
+
+        Parameters
+        ----------
+        examples, mistakes : sequence of Example
+        """
+        asked = tuple((one.text, one.meaning) for one in (*examples, *mistakes))
+        if asked not in self._words:
+            self._words[asked] = ExampleWords(examples, mistakes)
+        return self._words[asked]
+
+
+class ExampleWords:
+    """The words of all examples of a part, and which of them each typed word may be.
+
+    All answers to a part are searched for the same words, and most are none of them.
+
+    Parameters
+    ----------
+    examples : sequence of Example
+        No word of them is taken for another one misspelt.
+    mistakes : sequence of Example
+    """
+
+    def __init__(self, examples: Sequence[Example] = (), mistakes: Sequence[Example] = ()) -> None:
+        rows = _iter_rows(examples)
+        self.own = frozenset(stem for row in rows for word in row for stem in _stems(word))
+        self._begins = sorted({row[0] for row in _iter_rows((*examples, *mistakes))})
+        self._found: dict[str, tuple[str, ...]] = {}
+
+    def has_own(self, typed: str) -> bool:
+        """Return whether a typed word is a form of one of the examples: no slip of another."""
+        return not self.own.isdisjoint(_stems(typed))
+
+    def find_begun(self, typed: str) -> tuple[str, ...]:
+        """Return the words that rows begin with and of which a typed word is a form."""
+        found = self._found.get(typed)
+        if found is None:
+            if len(self._found) >= MOST_TYPED:
+                self._found.clear()
+            slips = not self.has_own(typed)
+            found = tuple(word for word in self._begins if is_form_of(typed, word, slips=slips))
+            self._found[typed] = found
+        return found
+
+
+MOST_TYPED = 4096
+"""Typed words that are remembered for a part."""
+
+
+def _iter_rows(examples: Iterable[Example]) -> Iterator[tuple[str, ...]]:
+    """Yield the rows of words of all items of examples."""
+    for one in examples:
+        for step in one.steps:
+            for item in step:
+                yield from item.rows
 
 
 @lru_cache(maxsize=512)
@@ -464,7 +534,7 @@ def _read_example(text: str, meaning: Meaning, subject: Subject) -> Example:
                 denied = not denied
             if item is None and words[0] in known.than | known.than_behind:
                 compared = max(len(steps[-1]), 1)
-            steps[-1] += [item] if item else []
+            steps[-1] += [subject.share_item(item)] if item else []
             place += length
     return Example(text, meaning, tuple(map(tuple, filter(None, steps))), denied, compared)
 
@@ -492,7 +562,7 @@ def _read_word(word: str) -> _Item | None:
     known = _vocabulary()
     if word in known.denials | known.ahead | known.than | known.than_behind:
         return None
-    scales = _scales_of(word, slips=False)
+    scales = find_scales(word, slips=False)
     if scales:
         return _Item(scales=scales)
     if word in known.fillers or word in known.breaks or not word[0].isalnum():
@@ -606,13 +676,13 @@ class Statement:
     """
 
     def __init__(self, typed: str, subject: Subject | None = None) -> None:
-        self.typed, self._known = typed, frozenset[str]()
+        self.typed, self._words = typed, ExampleWords()
         self.tokens = split_tokens(typed)
         self._held = self._find_held(subject) if subject else set()
         self.clauses = self._cut()
         self._rows: dict[int, tuple[_Item, list[tuple[int, ...]]]] = {}
-        self._starts: dict[tuple[str, bool], list[int]] = {}
         self._scales: dict[int, tuple[Scale, ...]] = {}
+        self._doubts: dict[int, set[int]] = {}
 
     def _find_held(self, subject: Subject) -> set[int]:
         """Return the tokens in a row of words of the subject, such as ``salt and pepper``."""
@@ -696,8 +766,9 @@ class Statement:
         )
         if clause.corrects:
             return
+        turning = known.denials | known.ahead | known.than | known.than_behind
         for index, (place, word) in enumerate(zip(clause.places, words, strict=True)):
-            if place in self._held:
+            if place in self._held or word not in turning:
                 continue
             if any(tuple(words[index : index + len(row)]) == row for row in known.harmless):
                 continue
@@ -707,7 +778,7 @@ class Statement:
             elif word in known.ahead and not _is_condition(words, index):
                 clause.ahead.append(place)
             if word in known.than and any(
-                name == "amount" for one in words[:index] for name, _ in _scales_of(one)
+                name == "amount" for one in words[:index] for name, _ in find_scales(one)
             ):
                 clause.compared |= set(clause.places[index + 1 :])
             elif word in known.than_behind and index:
@@ -792,10 +863,9 @@ class Statement:
         known = _vocabulary()
         return sum(word in known.denials | known.verdicts for word in words) % 2 == 1
 
-    def know(self, examples: Iterable[Example]) -> None:
-        """Take the words of examples for words of their own, none of which misspells another."""
-        rows = (row for one in examples for step in one.steps for item in step for row in item.rows)
-        self._known = frozenset(stem for row in rows for word in row for stem in _stems(word))
+    def know(self, words: ExampleWords) -> None:
+        """Take the words of what will be looked for, before anything is."""
+        self._words = words
 
     def find(
         self,
@@ -843,19 +913,23 @@ class Statement:
         unsure = (
             any(self.clauses[at].doubted for at in clauses)
             or self._is_said_of_another(evidence, mine, others)
-            or any(self._has_doubt(self.clauses[at], evidence.places) for at in clauses)
+            or any(not self._list_doubts(at) <= {*evidence.places} for at in clauses)
             or self._has_other_end(evidence, example)
         )
         return replace(evidence, meaning="open") if unsure else evidence
 
-    def _has_doubt(self, clause: _Clause, places: Sequence[int]) -> bool:
-        """Return whether a clause holds words such as *fails to*, which no example foresees."""
-        words = [self.tokens[at].text for at in clause.places]
-        return any(
-            clause.places[at] not in places and tuple(words[at : at + len(row)]) == row
-            for row in _vocabulary().doubts
-            for at in range(len(words))
-        )
+    def _list_doubts(self, index: int) -> set[int]:
+        """Return the tokens of a clause where words such as *fails to* begin."""
+        if index not in self._doubts:
+            places = self.clauses[index].places
+            words = [self.tokens[at].text for at in places]
+            self._doubts[index] = {
+                places[at]
+                for row in _vocabulary().doubts
+                for at in range(len(words))
+                if words[at] == row[0] and tuple(words[at : at + len(row)]) == row
+            }
+        return self._doubts[index]
 
     def _has_other_end(self, evidence: Evidence, example: Example) -> bool:
         """Return whether clauses also say the other end of a scale of an example.
@@ -903,7 +977,7 @@ class Statement:
     def _names(self, clause: _Clause, rows: Iterable[Words]) -> bool:
         """Return whether a clause names one of some things, and does not compare with it."""
         return any(
-            at not in clause.compared and _has_row(self.tokens, at, row, known=self._known)
+            at not in clause.compared and _has_row(self.tokens, at, row, known=self._words.own)
             for row in rows
             for at in clause.places
         )
@@ -1064,9 +1138,7 @@ class Statement:
             rows = tuple(
                 scale for row, scale in _vocabulary().phrases if self._has_loose_row(place, row)
             )
-            self._scales[place] = rows or _scales_of(
-                word, slips=self._known.isdisjoint(_stems(word))
-            )
+            self._scales[place] = rows or find_scales(word, slips=not self._words.has_own(word))
         return self._scales[place]
 
     def _has_loose_row(self, place: int, row: Sequence[str]) -> bool:
@@ -1084,12 +1156,12 @@ class Statement:
     def _list_rows(self, item: _Item) -> list[tuple[int, ...]]:
         """Return the tokens of each place of the text where a row of an item stands."""
         if id(item) not in self._rows:
-            found = sorted(
+            found = () if item.begins.isdisjoint(self._begun) else sorted(
                 (at, number)
                 for number, row in enumerate(item.rows)
-                for at in self._find_starts(row[0], exactly=item.formula)
+                for at in self._begun.get(row[0], ())
                 if self._stands(item, row, at)
-            )
+            )  # fmt: skip
             rows = [tuple(range(at, at + len(item.rows[number]))) for at, number in found]
             self._rows[id(item)] = (item, rows)
         return self._rows[id(item)][1]
@@ -1108,20 +1180,14 @@ class Statement:
                 found.append((at, after))
         return found[::-1]
 
-    def _find_starts(self, word: str, *, exactly: bool) -> list[int]:
-        """Return the tokens at which a row with this first word may begin.
-
-        Most rows begin with a word that is nowhere in the text, and many with the same one.
-        """
-        if (word, exactly) not in self._starts:
-            known = self._known
-            self._starts[word, exactly] = [
-                at
-                for at, typed in self._firsts
-                if typed == word
-                or (not exactly and is_form_of(typed, word, slips=known.isdisjoint(_stems(typed))))
-            ]
-        return self._starts[word, exactly]
+    @cached_property
+    def _begun(self) -> dict[str, list[int]]:
+        """Return the tokens at which a row may begin, by its first word."""
+        found: dict[str, list[int]] = {}
+        for at, typed in self._firsts:
+            for word in self._words.find_begun(typed):
+                found.setdefault(word, []).append(at)
+        return found
 
     def _stands(self, item: _Item, row: Sequence[str], place: int) -> bool:
         """Return whether a row stands at a token; a formula only if it goes on neither way.
@@ -1130,7 +1196,7 @@ class Statement:
         """
         if len(row) == 1 and place in self._held:
             return False
-        if not _has_row(self.tokens, place, row, exactly=item.formula, known=self._known):
+        if not _has_row(self.tokens, place, row, exactly=item.formula, known=self._words.own):
             return False
         if not item.formula and len(row[0]) > 1:
             return True
@@ -1155,7 +1221,7 @@ class Statement:
         denied = self._is_denied(clause, places)
         turned = sign < 0
         opens_with = self.tokens[clause.places[0]].text
-        contrast = example.denied and index and opens_with in {"not", "nicht"}
+        contrast = example.denied and index and opens_with in list_words("spelling.not")
         unsure = (
             sign == 0
             or self._denies_elsewhere(

@@ -7,12 +7,12 @@ from typing import Protocol
 
 import msgspec
 
-from quizgen.bank.markdown import Block, Emphasis, Inline, Paragraph
 from quizgen.bank.variant import Variant
 from quizgen.grading.spec import AnySpec
 from quizgen.kinds.contract import LINE, InputControl
 from quizgen.kinds.work import Unit, sum_minutes
 from quizgen.question.solution import PartSolution, Solution
+from quizgen.typeset.prose import Block, Emphasis, Inline, Paragraph
 
 ADDED_WORDS = 17
 """Words of a part that is put before an authored one, on average."""
