@@ -12,6 +12,7 @@ from quizgen.maths.operators import (
     CHECKED,
     CONDITIONS,
     DISTRIBUTIONS,
+    FURTHER,
     OPERATORS,
     Operator,
     OperatorSyntax,
@@ -47,6 +48,9 @@ steps that are only checked.
 """
 
 TAIL = """
+Under SymPy's names, too: {further}. Those of whole numbers are exact. What SymPy has no class for,
+as `gcd` or `isprime`, waits for the drawn numbers by itself.
+
 Beside them a step may hold what SymPy works out when the solver is compiled: `diff`, `integrate`,
 `limit`, `Derivative`, `Integral`, `Limit`, `Subs`, `det`, `inv`, matrix products, `re`, `im`,
 `conjugate`, `arg`, `Abs` and `I`; and {others}, which are written by the functions above.
@@ -87,8 +91,10 @@ def describe_operator(row: Operator) -> str:
 def build_page() -> str:
     """Return the whole page."""
     others = ", ".join(f"`{one.__name__}`" for one in REWRITES if isinstance(one, type(sympy.coth)))
-    rows = "\n".join(map(describe_operator, OPERATORS.values()))
-    return HEAD + rows + "\n" + TAIL.format(others=others)
+    further = ", ".join(f"`{name}`" for name in FURTHER)
+    listed = [row for name, row in OPERATORS.items() if name not in FURTHER]
+    rows = "\n".join(map(describe_operator, listed))
+    return HEAD + rows + "\n" + TAIL.format(others=others, further=further)
 
 
 if __name__ == "__main__":

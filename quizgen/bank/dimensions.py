@@ -18,7 +18,7 @@ from fractions import Fraction
 
 from quizgen.bank.template import Template
 from quizgen.core.errors import BankError
-from quizgen.kinds.contract import asked_quantities
+from quizgen.kinds.contract import asked_form, asked_quantities
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.notation import format_tree, pretty
 from quizgen.maths.operators import BINDERS, OPERATORS, OperatorSyntax, operators_with_syntax
@@ -92,6 +92,7 @@ def _iter_unit_errors(template: Template) -> Iterator[BankError]:
         for problem in _check_step(units, step, known):
             file, at = template.solver_file or template.file, ("alternatives", step.name)
             yield BankError(problem, rule="QG203", file=file, place=at)
+    yield from _check_complex_parts(template, known)
     for index, part in enumerate(template.rules.part):
         asked = part.answer.get("unit")
         for name in asked_quantities(part.answer) if isinstance(asked, str) else ():
@@ -106,6 +107,32 @@ def _iter_unit_errors(template: Template) -> Iterator[BankError]:
                 where = ("part", index, "answer", "unit")
                 what = f"part {index + 1}: {what}"
                 yield BankError(what, rule="QG202", file=template.file, place=where)
+
+
+def _check_complex_parts(template: Template, known: Mapping[str, Dimension]) -> Iterator[BankError]:
+    """Yield complex answers whose unit is not that of their formula."""
+    for index, part in enumerate(template.rules.part):
+        form = template.chain.form_by_name.get(asked_form(part.answer))
+        if part.answer.get("kind") != "complex" or form is None:
+            continue
+        unit = str(part.answer.get("unit", ""))
+        wanted = _parse_unit_dimension(template.about.system, unit)
+        try:
+            found = _infer_dimension(Call("add", _split_complex(form.expr)), known)
+        except _ClashError as error:
+            found, what = {}, str(error)
+        else:
+            what = f"is in {_format_dimension(found or {})}, and is asked in {unit or 'no unit'!r}"
+            if found is None or _remove_angles(found) == _remove_angles(wanted):
+                continue
+        said = f"part {index + 1}: {form.name} {what}"
+        place = ("part", index, "answer")
+        yield BankError(said, rule="QG202", file=template.file, place=place)
+
+
+def _split_complex(expr: Expr) -> tuple[Expr, ...]:
+    """Return real and imaginary part of a complex number, else the number twice."""
+    return expr.args if isinstance(expr, Call) and expr.op == "complex" else (expr, expr)
 
 
 def _check_step(

@@ -27,7 +27,8 @@ from quizgen.core.errors import BankError
 from quizgen.core.imports import LOCK
 from quizgen.core.untrusted import read_bytes
 from quizgen.maths.chain import Chain
-from quizgen.maths.model import Model, work_out
+from quizgen.maths.model import Model, leave_symbolic, work_out
+from quizgen.maths.operators import UNEVALUATED
 
 _CHAINS = CompileCache("chains", Chain, "sympy")
 _PRIVATE = "_quizgen_solvers_"
@@ -48,9 +49,9 @@ class _AsWritten(SourceFileLoader):
         """Return the code of the source, whatever bytecode there is."""
         path = self.get_filename(fullname)
         source = self.get_data(path)
-        if b"evaluate(" not in source:
+        if not _REWRITTEN.search(source):
             return self.source_to_code(source, path)
-        tree = _WorkingOut().visit(ast.parse(source, path))
+        tree = _WorkingOut().visit(_WaitingForNumbers().visit(ast.parse(source, path)))
         return self.source_to_code(ast.fix_missing_locations(tree), path)
 
 
@@ -189,7 +190,10 @@ _EVALUATING = frozenset({
     "series", "simplify", "solve", "solveset", "summation", "together", "trigsimp",
 })  # fmt: skip
 """Functions and methods of SymPy that give nonsense or fail where nothing is evaluated."""
-_WORK_OUT = "_quizgen_work_out"
+_WORK_OUT, _LEAVE = "_quizgen_work_out", "_quizgen_leave_symbolic"
+_WAITING = UNEVALUATED | {"igcd", "ilcm"}
+"""Functions of SymPy that need numbers, and get names where a solver is compiled."""
+_REWRITTEN = re.compile(rf"\b(?:evaluate|{'|'.join(sorted(_WAITING))})\(".encode())
 
 
 class _WorkingOut(ast.NodeTransformer):
@@ -207,6 +211,31 @@ class _WorkingOut(ast.NodeTransformer):
         name = ast.alias(work_out.__name__, _WORK_OUT)
         bring = ast.ImportFrom(work_out.__module__, [name], 0)
         return ast.copy_location(ast.With(node.items, [bring, *body]), node)
+
+
+class _WaitingForNumbers(ast.NodeTransformer):
+    """Has functions of whole numbers wait until numbers are drawn."""
+
+    def visit_Module(self, node: ast.Module) -> ast.Module:
+        """Rewrite a file, which may begin with its docstring and ``from __future__``."""
+        self.generic_visit(node)
+        first = next((n for n, one in enumerate(node.body) if not _stands_first(one)), 0)
+        bring = ast.ImportFrom(leave_symbolic.__module__, [ast.alias("leave_symbolic", _LEAVE)], 0)
+        node.body.insert(first, bring)
+        return node
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        """Rewrite the call of one of ``_WAITING``."""
+        self.generic_visit(node)
+        if _called_name(node) in _WAITING:
+            node.func = ast.Call(ast.Name(_LEAVE, ast.Load()), [node.func], [])
+        return node
+
+
+def _stands_first(node: ast.stmt) -> bool:
+    """Whether a statement must stand before all others."""
+    is_future = isinstance(node, ast.ImportFrom) and node.module == "__future__"
+    return is_future or (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant))
 
 
 class _WrapCalls(ast.NodeTransformer):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -9,6 +10,7 @@ import msgspec
 
 from quizgen.core.errors import MathError
 from quizgen.maths.chain import Chain
+from quizgen.maths.tree import Expr
 from quizgen.maths.values import Values
 
 DECIMALS = ("auto", "point", "comma")
@@ -26,11 +28,15 @@ class QuestionContext:
         The drawn numbers, in base units.
     earlier : mapping of str to flint.fmpq
         The student's own values of quantities asked in earlier parts, in base units.
+    forms : mapping of str to Expr
+        The student's own formulas, matrices, ... where earlier parts asked for a form and it was
+        wrong.
     """
 
     chain: Chain
     given: Values
     earlier: Values = field(default_factory=dict)
+    forms: Mapping[str, Expr] = field(default_factory=dict)
     _solved: list[Values] = field(init=False, repr=False, compare=False, default_factory=list)
 
     @property

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import ClassVar, Literal, TypeVar
+from typing import ClassVar, Literal, Self, TypeVar
 
 import msgspec
 from flint import fmpq
@@ -20,6 +20,7 @@ from quizgen.grading.reading.units import listed_unit
 from quizgen.grading.verdict import Verdict
 from quizgen.maths.constants import Scalar, parse_exact
 from quizgen.maths.tolerance import Tolerance
+from quizgen.maths.tree import Expr
 from quizgen.maths.units import UnitRegistry, build_unit_registry
 from quizgen.maths.values import Value
 
@@ -70,6 +71,20 @@ class SpecBase:
     def printed_unit(self) -> str:
         """The unit that is printed beside the field on paper; empty if there is none."""
         return ""
+
+    def read_form(self, _typed: str, _options: GradingOptions, /) -> Expr | None:
+        """Return what was typed as a form of the solver, to be carried forward; None by default.
+
+        Raises
+        ------
+        FormulaReadError
+            If it cannot be read.
+        """
+        return None
+
+    def replace_key(self, _form: Expr, /) -> Self | None:
+        """Return the same specification with another form as its key; None by default."""
+        return None
 
     @abstractmethod
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:

@@ -66,7 +66,7 @@ from quizgen.maths.tidy import tidy_formula
 from quizgen.maths.tree import Call, Expr, Num, Sym, names_in, substitute
 
 if TYPE_CHECKING:
-    from quizgen.question.inlines import TextOrInlines
+    from quizgen.typeset.prose import TextOrInlines
 
 RELATIONS = (*SAME_SIGN, "ne")
 """Signs of a line."""
@@ -486,7 +486,7 @@ def input_hints(spec: DerivationSpec, lang: str) -> tuple[TextOrInlines, ...]:
 
 def explain_key(spec: DerivationSpec, _lang: str) -> TextOrInlines:
     """Return the lines as they are written by hand, one after another."""
-    from quizgen.question.inlines import join_inlines, to_inlines
+    from quizgen.typeset.prose import join_inlines, to_inlines
 
     shown = [to_inlines(typeset_key(spec.relation(line.forms[0]).tree))
              for line in spec.lines.values()]  # fmt: skip

@@ -29,7 +29,7 @@ from quizgen.maths.notation import FormulaReadError, format_tree, pretty
 from quizgen.maths.tree import Call, Expr, make_number, names_in
 
 if TYPE_CHECKING:
-    from quizgen.question.inlines import TextOrInlines
+    from quizgen.typeset.prose import TextOrInlines
 
 
 class AuthoredEquation(AuthoredAnswer, kw_only=True, tag="equation", frozen=True):
@@ -93,6 +93,10 @@ class EquationSpec(WordSpec, kw_only=True, frozen=True):
             return found.equal
         same = values_agree(found.ratio, fmpq(0)) is False
         return same and (own.op == "eq" or bool(found.ratio > 0))
+
+    def replace_key(self, form: Expr, /) -> EquationSpec:
+        """Return the specification with another equation as its key, and without mistakes."""
+        return msgspec.structs.replace(self, value=format_tree(form), traps={})
 
     def show(self) -> str:
         """Return the key as it is printed, and as it can be typed back."""

@@ -48,7 +48,7 @@ from quizgen.maths.tree import Expr, Num, names_in, substitute
 from quizgen.maths.values import Value
 
 if TYPE_CHECKING:
-    from quizgen.question.inlines import TextOrInlines
+    from quizgen.typeset.prose import TextOrInlines
 
 EXAMPLE = "(a+b)^2/2"
 """A formula as it is typed, and no answer to any question."""
@@ -136,6 +136,18 @@ class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
             raise FormulaReadError("sides-differ", 1, typed.strip()[:60])
         last = verdicts[-1]
         return msgspec.structs.replace(last, read_as=self._name_calls(last.read_as))
+
+    def read_form(self, typed: str, options: GradingOptions, /) -> Expr:
+        """Return the last side of a typed formula; errors as ``judge``."""
+        names = (*self.symbols, CONSTANT) if self.up_to == "constant" else tuple(self.symbols)
+        side = split_sides(typed, names)[-1]
+        tree = read_formula(side, names, options.decimal).tree
+        return tree if CONSTANT in self.symbols else substitute(tree, {CONSTANT: _ZERO})
+
+    def replace_key(self, form: Expr, /) -> ExpressionSpec:
+        """Return the specification with another formula as its key, and without mistakes."""
+        symbols = dict.fromkeys(names_in(form), "real") | self.symbols
+        return msgspec.structs.replace(self, value=format_tree(form), traps={}, symbols=symbols)
 
     def _name_calls(self, text: str) -> str:
         """Return a formula for people with the calls of functions as they are written."""
@@ -326,9 +338,9 @@ def explain_key(spec: ExpressionSpec, _lang: str) -> TextOrInlines:
     key = parse_authored(spec.value, tuple(spec.symbols))
     if not spec.calls:
         return typeset_key(key)
-    from quizgen.question.inlines import TypesetMaths
     from quizgen.typeset import lay_out
     from quizgen.typeset.from_latex import lay_out_latex
+    from quizgen.typeset.prose import TypesetMaths
 
     leaves = {name: lay_out_latex(call) for name, call in spec.calls.items()}
     return (TypesetMaths(lay_out(key, leaves=leaves, inline=True), spec.show()),)

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
+import msgspec
 from flint import fmpq
 
 from quizgen.core.decoding import convert
+from quizgen.grading.diagnosis.carry_forward import to_constant
 from quizgen.grading.judging.sampled_equality import values_agree
+from quizgen.grading.reading.formulas import read_formula
 from quizgen.grading.reading.normalise import normalise_typed
 from quizgen.grading.reading.numbers import ReadNumber, read_number
 from quizgen.grading.reading.source_map import SourceText
@@ -17,16 +20,21 @@ from quizgen.grading.rounding import format_key
 from quizgen.grading.spec import WordSpec
 from quizgen.kinds.asking import precision_on_paper, rounding_hint
 from quizgen.kinds.contract import AuthoredAnswer, PartContext
+from quizgen.maths.complex_values import ComplexValue, evaluate_complex
 from quizgen.maths.constants import Scalar, parse_exact
 from quizgen.maths.notation import format_tree, parse_formula, pretty
 from quizgen.maths.numbers import is_short_decimal
+from quizgen.maths.tidy import tidy_formula
 from quizgen.maths.tolerance import RULES, Tolerance
-from quizgen.maths.tree import Call, Expr, Num
+from quizgen.maths.tree import Call, Expr, Num, Sym
 from quizgen.maths.values import Value
 
 if TYPE_CHECKING:
-    from quizgen.question.inlines import TextOrInlines
+    from quizgen.typeset.prose import TextOrInlines
 
+EntryText: TypeAlias = str | list[str]
+"""An entry of a key: a constant formula, or those of a real and an imaginary part."""
+IMAGINARY = ("i", "j")
 _NUMBER = re.compile(r"-?\d+(?:/\d+|\.\d+)?")
 _FORM_WORDS = {"eq": "equation", "lt": "<", "le": "<=", "gt": ">", "ge": ">="}
 """Operator to its name, where that is not the word for it."""
@@ -59,7 +67,7 @@ def typeset_key(tree: Expr, typed_text: str = "") -> TextOrInlines:
     ``typed_text`` is how it would be typed, where that is not the formula itself.
     """
     from quizgen import typeset
-    from quizgen.question.inlines import TypesetMaths
+    from quizgen.typeset.prose import TypesetMaths
 
     return (TypesetMaths(typeset.lay_out(tree, inline=True), typed_text or format_tree(tree)),)
 
@@ -119,7 +127,35 @@ class EntriesSpec(WordSpec, kw_only=True, frozen=True):
         return precision_on_paper(rule, lang) if rule else ()
 
 
-def round_entry(text: str, rule: Tolerance | None) -> str:
+def format_entry(expr: Expr) -> EntryText:
+    """Return an entry of a form as a key has it."""
+    if isinstance(expr, Call) and expr.op == "complex":
+        return list(map(format_plain, expr.args))
+    return format_plain(expr)
+
+
+def check_entry(entry: EntryText) -> None:
+    """Raise ``FormulaError`` if an entry of a key cannot be read, ``ValueError`` if it is none."""
+    parts = _split_parts(entry)
+    if len(parts) != len(("real", "imaginary")):
+        raise ValueError("an entry is a number, or a real and an imaginary part")
+    for text in parts:
+        parse_exact(text)
+
+
+def _split_parts(entry: EntryText) -> list[str]:
+    """Return the real and the imaginary part of an entry."""
+    return [entry, "0"] if isinstance(entry, str) else entry
+
+
+def round_entry(entry: EntryText, rule: Tolerance | None) -> EntryText:
+    """Return an entry as far as a rule asks, each part of a complex one."""
+    if isinstance(entry, list):
+        return [round_number(part, rule) for part in entry]
+    return round_number(entry, rule)
+
+
+def round_number(text: str, rule: Tolerance | None) -> str:
     """Return a number of a key as far as a rule asks; as it is without one, or if it is shorter."""
     if rule is None:
         return text
@@ -130,21 +166,55 @@ def round_entry(text: str, rule: Tolerance | None) -> str:
     return rounded.rstrip("0").rstrip(".") if "." in rounded and "e" not in rounded else rounded
 
 
-def show_entry(text: str) -> str:
-    """Return a number of a key as it is printed, and as it can be typed back."""
-    plain = format_plain(parse_entry(text))
+def show_entry(entry: EntryText) -> str:
+    """Return an entry of a key as it is printed, and as it can be typed back."""
+    plain = format_plain(parse_entry(entry))
     return (
         pretty.format_number(plain) if _NUMBER.fullmatch(plain) else pretty.format_constant(plain)
     )
 
 
-def parse_entry(text: str) -> Expr:
-    """Return the tree of a number of a key."""
-    return parse_formula(text, symbols=())
+def parse_entry(entry: EntryText) -> Expr:
+    """Return the tree of an entry of a key; of a complex one as a formula of ``i``."""
+    if isinstance(entry, str):
+        return parse_formula(entry, symbols=())
+    real, imaginary = map(parse_entry, entry)
+    return tidy_formula(Call("add", (real, Call("mul", (imaginary, Sym("i"))))))
+
+
+class TypedEntry(msgspec.Struct, frozen=True):
+    """An entry of a typed matrix: its value, or the parts of a complex one, and the echo."""
+
+    value: Value | ComplexValue
+    read_as: str
+
+
+def read_any_entry(piece: str | SourceText, decimal: str, *, as_complex: bool) -> TypedEntry:
+    """Return a typed entry, which may be a formula of ``i`` or ``j`` if complex ones are asked.
+
+    Raises
+    ------
+    FormulaReadError
+        If it is no number.
+    """
+    if not as_complex:
+        number = read_entry(piece, decimal)
+        return TypedEntry(number.value, number.read_as)
+    text = piece if isinstance(piece, str) else piece.text
+    tree = read_formula(text, IMAGINARY, decimal).tree
+    value = evaluate_complex(tree, frozenset(IMAGINARY))
+    return TypedEntry(value, pretty.format_formula(format_tree(tree)))
+
+
+def write_constant(value: Value | ComplexValue) -> Expr:
+    """Return a typed number as a form; a ball becomes its midpoint."""
+    if isinstance(value, tuple):
+        return Call("complex", tuple(map(to_constant, value)))
+    return to_constant(value)
 
 
 def read_entry(piece: str | SourceText, decimal: str) -> ReadNumber:
-    """Return a typed number.
+    """Return a typed real number.
 
     Raises
     ------
@@ -155,11 +225,17 @@ def read_entry(piece: str | SourceText, decimal: str) -> ReadNumber:
     return read_number(source, decimal).main
 
 
-def entry_matches(value: Value, text: str, rule: Tolerance | None = None) -> bool:
-    """Whether a value is a number of a key: as near as a rule asks, if one is stated.
+def entry_matches(
+    value: Value | ComplexValue, text: EntryText, rule: Tolerance | None = None
+) -> bool:
+    """Whether a value is an entry of a key: as near as a rule asks, if one is stated.
 
     Without one, it may be rounded where it has no short decimals.
     """
+    if isinstance(value, tuple) or isinstance(text, list):
+        parts = value if isinstance(value, tuple) else (value, fmpq(0))
+        pairs = zip(parts, _split_parts(text), strict=True)
+        return all(entry_matches(part, asked, rule) for part, asked in pairs)
     key = parse_exact(text)
     if rule is not None:
         return rule.is_within(value, key)

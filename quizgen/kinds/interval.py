@@ -16,6 +16,7 @@ from quizgen.grading.reading.literals import with_decimal_points
 from quizgen.grading.reading.normalise import normalise_typed
 from quizgen.grading.reading.numbers import read_number
 from quizgen.grading.reading.source_map import SourceText
+from quizgen.grading.reading.written_intervals import write_interval
 from quizgen.grading.rounding import format_exact_or_figures
 from quizgen.grading.spec import NumericSpec
 from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
@@ -122,6 +123,10 @@ class IntervalSpec(NumericSpec, kw_only=True, frozen=True):
         note = "bracket-right" if left else "bracket-left" if right else "brackets"
         return partial(HALF if left or right else Fraction(1, 4), read_as, note)
 
+    def replace_key(self, form: Expr, /) -> IntervalSpec:
+        """Return the specification with another union as its key, and without mistakes."""
+        return msgspec.structs.replace(self, value=_write_union(form), traps={})
+
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
         return read_union(self.value, "point")[1]
@@ -163,7 +168,7 @@ def read_union(typed: str, decimal: str) -> tuple[list[IntervalValue], str]:
     """
     if typed.strip() in _EMPTY:
         return [], EMPTY
-    inside = re.sub(r"^\s*(?:L|S|D)\s*=\s*", "", typed)
+    inside = write_interval(re.sub(r"^\s*(?:L|S|D)\s*=\s*", "", typed))
     read = [read_interval(piece, decimal) for piece in _JOINED.split(inside.strip())]
     read.sort(key=lambda pair: (pair[0].low is not None, pair[0].low or 0))
     return [interval for interval, _ in read], " ∪ ".join(echo for _, echo in read)
@@ -295,7 +300,13 @@ def ask(part: PartContext) -> AskedPart[IntervalSpec]:
 
 def _format_union(part: PartContext, form: Expr) -> str:
     """Return a union, or the points of a finite set, as the text of a key."""
-    union = require_form(part, form, "union", "set")
+    return _write_union(require_form(part, form, "union", "set"))
+
+
+def _write_union(union: Expr) -> str:
+    """Return a union or a finite set as the text of a key."""
+    if not isinstance(union, Call):
+        return EMPTY
     if union.op == "set":
         return " or ".join(f"[{point}; {point}]" for point in map(format_plain, union.args))
     return " or ".join(map(_format_piece, union.args)) or EMPTY

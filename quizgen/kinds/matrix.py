@@ -21,27 +21,34 @@ from quizgen.kinds.contract import (
 from quizgen.kinds.forms import (
     AuthoredEntries,
     EntriesSpec,
+    EntryText,
+    check_entry,
     drop_name,
     entry_matches,
-    format_plain,
+    format_entry,
     parse_entry,
-    read_entry,
+    read_any_entry,
     require_form,
     round_entry,
     show_entry,
     typeset_key,
+    write_constant,
 )
-from quizgen.maths.constants import parse_exact
+from quizgen.maths.complex_values import ComplexValue
 from quizgen.maths.tolerance import Tolerance
 from quizgen.maths.tree import Call, Expr
 from quizgen.maths.values import Value
 
 if TYPE_CHECKING:
-    from quizgen.question.inlines import TextOrInlines
+    from quizgen.typeset.prose import TextOrInlines
 
 _HINT = hint("ask.matrix")
-Entries = list[list[str]]
-"""Rows of numbers, each a constant formula."""
+Entries = list[list[EntryText]]
+"""Rows of numbers."""
+
+
+Rows = list[list[Value | ComplexValue]]
+"""Typed rows."""
 
 
 class AuthoredMatrix(AuthoredEntries, kw_only=True, tag="matrix", frozen=True):
@@ -65,18 +72,35 @@ class MatrixSpec(EntriesSpec, kw_only=True, frozen=True):
             if not rows or len({len(row) for row in rows}) != 1:
                 raise ValueError("entries: rows of one length are needed")
             for row in rows:
-                for text in row:
-                    parse_exact(text)
+                for entry in row:
+                    check_entry(entry)
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
         """Judge a typed matrix."""
-        rows, read_as = _read_matrix(typed, options.decimal)
+        rows, read_as = self._read(typed, options)
         if _is_same(rows, self.entries, self.tolerance):
             return correct(read_as)
         for name, entries in self.traps.items():
             if _is_same(rows, entries, self.tolerance):
                 return wrong(read_as, f"trap:{name}")
         return _diagnose(self, rows, read_as)
+
+    def _read(self, typed: str, options: GradingOptions) -> tuple[Rows, str]:
+        """Return typed rows of values, and the echo; errors as ``judge``."""
+        known = (self.entries, *self.traps.values())
+        as_complex = any(isinstance(entry, list) for rows in known for row in rows for entry in row)
+        return _read_matrix(typed, options.decimal, as_complex=as_complex)
+
+    def read_form(self, typed: str, options: GradingOptions, /) -> Expr | None:
+        """Return a typed matrix; None if its size is not that of the key; errors as ``judge``."""
+        rows, _ = self._read(typed, options)
+        if list(map(len, rows)) != list(map(len, self.entries)):
+            return None
+        return Call("matrix", tuple(Call("row", tuple(map(write_constant, row))) for row in rows))
+
+    def replace_key(self, form: Expr, /) -> MatrixSpec:
+        """Return the specification with another matrix as its key, and without mistakes."""
+        return msgspec.structs.replace(self, entries=_write_entries(form), traps={})
 
     def show(self) -> str:
         """Return the key as it is printed, and as it can be typed back."""
@@ -93,7 +117,7 @@ def build_matrix(entries: Entries) -> Expr:
     return Call("matrix", tuple(Call("row", tuple(map(parse_entry, row))) for row in entries))
 
 
-def _read_matrix(typed: str, decimal: str) -> tuple[list[list[Value]], str]:
+def _read_matrix(typed: str, decimal: str, *, as_complex: bool) -> tuple[Rows, str]:
     """Return rows of values, and the echo.
 
     Raises
@@ -102,12 +126,14 @@ def _read_matrix(typed: str, decimal: str) -> tuple[list[list[Value]], str]:
         If rows differ in length, or an entry is no number.
     """
     pieces = split_matrix(drop_name(typed), decimal)
-    rows = [[read_entry(piece, decimal) for piece in row] for row in pieces]
+    rows = [
+        [read_any_entry(piece, decimal, as_complex=as_complex) for piece in row] for row in pieces
+    ]
     echo = "; ".join(", ".join(number.read_as for number in row) for row in rows)
     return [[number.value for number in row] for row in rows], f"[{echo}]"
 
 
-def _is_same(rows: list[list[Value]], entries: Entries, rule: Tolerance | None) -> bool:
+def _is_same(rows: Rows, entries: Entries, rule: Tolerance | None) -> bool:
     """Return whether a matrix has the shape and the entries of a key."""
     return len(rows) == len(entries) and all(
         len(row) == len(key) and all(_match_entries(row, key, rule))
@@ -115,12 +141,14 @@ def _is_same(rows: list[list[Value]], entries: Entries, rule: Tolerance | None) 
     )
 
 
-def _match_entries(row: list[Value], key: list[str], rule: Tolerance | None) -> list[bool]:
+def _match_entries(
+    row: list[Value | ComplexValue], key: list[EntryText], rule: Tolerance | None
+) -> list[bool]:
     """Return for each entry of a row whether it is that of a key's row."""
     return [entry_matches(value, text, rule) for value, text in zip(row, key, strict=True)]
 
 
-def _diagnose(spec: MatrixSpec, rows: list[list[Value]], read_as: str) -> Verdict:
+def _diagnose(spec: MatrixSpec, rows: Rows, read_as: str) -> Verdict:
     """Return what is wrong: the size, rows and columns exchanged, one row, or single entries."""
     turned = [list(column) for column in zip(*rows, strict=True)]
     if _is_same(turned, spec.entries, spec.tolerance):
@@ -154,11 +182,18 @@ def ask(part: PartContext) -> AskedPart[MatrixSpec]:
 
 def _list_entries(part: PartContext, form: Expr) -> Entries:
     """Return the entries of a form by row, as text; a vector is one column."""
-    matrix = require_form(part, form, "matrix", "vector")
-    if matrix.op == "vector":
-        return [[format_plain(arg)] for arg in matrix.args]
-    rows = [row.args for row in matrix.args if isinstance(row, Call)]
-    return [[format_plain(arg) for arg in row] for row in rows]
+    return _write_entries(require_form(part, form, "matrix", "vector"))
+
+
+def _write_entries(form: Expr) -> Entries:
+    """Return the entries of a matrix or vector as a key has them."""
+    rows = form.args if isinstance(form, Call) else ()
+    return [
+        [format_entry(x) for x in row.args]
+        if isinstance(row, Call) and row.op == "row"
+        else [format_entry(row)]
+        for row in rows
+    ]
 
 
 def explain_key(spec: MatrixSpec, _lang: str) -> TextOrInlines:

@@ -192,6 +192,13 @@ class RubricSpec(WordSpec, kw_only=True, frozen=True):
         if sum(one.worth for one in self.criteria.values()) < parse_written_number(self.full):
             raise ValueError("the criteria have fewer points than the part")
 
+    @property
+    def needed(self) -> int:
+        """How many criteria make up the points of the part: fewer where the best count."""
+        worth = sorted((one.worth for one in self.criteria.values()), reverse=True)
+        full = parse_written_number(self.full)
+        return next(n for n in range(1, len(worth) + 1) if sum(worth[:n]) >= full)
+
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
         """Return what is suggested of a text, for a person who decides.
 
@@ -408,7 +415,8 @@ def ask(part: PartContext) -> AskedPart[RubricSpec]:
         synonyms=part.synonyms(used),
     )
     model = spec.show_in(next(iter(spec.ideas), ""))
-    lines = -(-len(model.split()) // WORDS_A_LINE)
+    said = len(model.split()) * spec.needed // len(criteria)
+    lines = -(-said // WORDS_A_LINE)
     return AskedPart(
         spec,
         InputControl("lines", lines=min(max(lines, FEWEST_LINES), MOST_LINES)),
@@ -427,7 +435,7 @@ FEW = 2
 
 def input_hints(spec: RubricSpec, lang: str) -> tuple[str, ...]:
     """Return the sentence on own words, as short as the criteria allow."""
-    count = len(spec.criteria)
+    count = spec.needed
     return (
         translate(lang, "ask.rubric")
         if count <= FEW

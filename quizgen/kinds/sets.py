@@ -13,6 +13,7 @@ from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.equalities import read_items
 from quizgen.grading.reading.lists import read_list
 from quizgen.grading.reading.numbers import ReadNumber
+from quizgen.grading.reading.spoken_values import separate_elements
 from quizgen.grading.rounding import format_key
 from quizgen.grading.spec import VectorSpec, matches_target
 from quizgen.grading.verdict import Verdict, correct, verdict_by_share, wrong
@@ -36,7 +37,7 @@ from quizgen.kinds.contract import (
 from quizgen.kinds.forms import format_plain, require_form
 from quizgen.kinds.number import is_number
 from quizgen.locale import translate
-from quizgen.maths.constants import parse_exact
+from quizgen.maths.constants import Scalar, parse_exact
 from quizgen.maths.notation import FormulaReadError, pretty
 from quizgen.maths.tolerance import RULES
 from quizgen.maths.tree import Call, Expr, Sym
@@ -69,6 +70,7 @@ class SetSpec(VectorSpec, kw_only=True, frozen=True):
             return _judge(self, [])
         if self.letters:
             return _judge_with_letters(self, typed, options)
+        typed = separate_elements(typed)
         if not _ONE_COMMA.fullmatch(typed.strip()):
             return _judge(self, _elements(self, typed, None, options))
         return self._judge_one_comma(typed, options)
@@ -91,6 +93,13 @@ class SetSpec(VectorSpec, kw_only=True, frozen=True):
         if own is one and one.credit:
             return one
         raise FormulaReadError("comma-twice", 1, typed)
+
+    def replace_key(self, form: Expr, /) -> SetSpec:
+        """Return the specification with other elements as its key, and without mistakes."""
+        args = form.args if isinstance(form, Call) else ()
+        letters = [arg.name for arg in args if isinstance(arg, Sym)]
+        values: list[Scalar] = [format_plain(arg) for arg in args if not isinstance(arg, Sym)]
+        return msgspec.structs.replace(self, values=values, letters=letters, traps={})
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""

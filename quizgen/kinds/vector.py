@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 import msgspec
+from flint import fmpq
 
 from quizgen.grading.judging.sampled_equality import values_agree
 from quizgen.grading.options import GradingOptions
@@ -24,22 +25,26 @@ from quizgen.kinds.contract import (
 from quizgen.kinds.forms import (
     AuthoredEntries,
     EntriesSpec,
+    EntryText,
+    TypedEntry,
+    check_entry,
     entry_matches,
-    format_plain,
+    format_entry,
     parse_entry,
-    read_entry,
+    read_any_entry,
     require_form,
     round_entry,
     show_entry,
     typeset_key,
+    write_constant,
 )
 from quizgen.locale import translate
-from quizgen.maths.constants import parse_exact
+from quizgen.maths.complex_values import ComplexValue, evaluate_complex, multiply
 from quizgen.maths.tree import Call, Expr
 from quizgen.maths.values import Value
 
 if TYPE_CHECKING:
-    from quizgen.question.inlines import TextOrInlines
+    from quizgen.typeset.prose import TextOrInlines
 
 _HINT = hint("ask.vector")
 
@@ -61,22 +66,20 @@ class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
 
     written_as: ClassVar[AnswerForm] = "formula"
 
-    components: list[str]
+    components: list[EntryText]
     up_to: Literal["", "scale"] = ""
-    traps: dict[str, list[str]] = msgspec.field(default_factory=dict)
+    traps: dict[str, list[EntryText]] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
         """Check the components."""
         super().validate()
         for components in (self.components, *self.traps.values()):
             for text in components:
-                parse_exact(text)
+                check_entry(text)
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
         """Judge a typed vector."""
-        plain = typed.replace("\\\\", ";").replace("&", ";")
-        pieces, _ = read_list(plain, len(self.components), options.decimal)
-        numbers = [read_entry(piece, options.decimal) for piece in pieces]
+        numbers = self._read(typed, options)
         values = [number.value for number in numbers]
         read_as = f"({'; '.join(number.read_as for number in numbers)})"
         if self._is_right(values, self.components):
@@ -86,19 +89,38 @@ class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
                 return wrong(read_as, f"trap:{name}")
         if self.up_to or not values:
             return wrong(read_as)
-        if all(self._match_components([-value for value in values], self.components)):
+        if all(self._match_components(list(map(_negate, values)), self.components)):
             return wrong(read_as, "sign")
         right = sum(self._match_components(values, self.components))
         credit, count = Fraction(right, len(values)), len(values)
         return verdict_by_share(credit, read_as, "matrix-entries", right=right, of=count)
 
-    def _is_right(self, values: list[Value], components: list[str]) -> bool:
+    def _read(self, typed: str, options: GradingOptions) -> list[TypedEntry]:
+        """Return the typed components; errors as ``judge``."""
+        plain = typed.replace("\\\\", ";").replace("&", ";")
+        pieces, _ = read_list(plain, len(self.components), options.decimal)
+        known = (self.components, *self.traps.values())
+        as_complex = any(isinstance(entry, list) for row in known for entry in row)
+        return [read_any_entry(piece, options.decimal, as_complex=as_complex) for piece in pieces]
+
+    def read_form(self, typed: str, options: GradingOptions, /) -> Expr:
+        """Return a typed vector; errors as ``judge``."""
+        values = [number.value for number in self._read(typed, options)]
+        return Call("vector", tuple(map(write_constant, values)))
+
+    def replace_key(self, form: Expr, /) -> ColumnSpec:
+        """Return the specification with another vector as its key, and without mistakes."""
+        return msgspec.structs.replace(self, components=_write_components(form), traps={})
+
+    def _is_right(self, values: list[Value | ComplexValue], components: list[EntryText]) -> bool:
         """Return whether a vector is the key, or a multiple of it if ``up_to`` is "scale"."""
         if self.up_to == "scale":
-            return _are_parallel(values, list(map(parse_exact, components)))
+            return _are_parallel(values, components)
         return all(self._match_components(values, components))
 
-    def _match_components(self, values: list[Value], components: list[str]) -> list[bool]:
+    def _match_components(
+        self, values: list[Value | ComplexValue], components: list[EntryText]
+    ) -> list[bool]:
         """Return for each value whether it is its component."""
         pairs = zip(values, components, strict=True)
         return [entry_matches(value, text, self.tolerance) for value, text in pairs]
@@ -107,22 +129,32 @@ class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
         """Return the key as it is printed, and as it can be typed back."""
         return f"({'; '.join(map(show_entry, self.rounded_components()))})"
 
-    def rounded_components(self) -> list[str]:
+    def rounded_components(self) -> list[EntryText]:
         """Return the components as far as they are asked."""
         return [round_entry(text, self.tolerance) for text in self.components]
 
 
-def build_vector(components: list[str]) -> Expr:
+def build_vector(components: list[EntryText]) -> Expr:
     """Return components of a key as a tree."""
     return Call("vector", tuple(map(parse_entry, components)))
 
 
-def _are_parallel(a: list[Value], b: list[Value]) -> bool:
+def _negate(value: Value | ComplexValue) -> Value | ComplexValue:
+    """Return a number with the other sign."""
+    return (-value[0], -value[1]) if isinstance(value, tuple) else -value
+
+
+def _are_parallel(typed: list[Value | ComplexValue], components: list[EntryText]) -> bool:
     """Return whether two vectors are multiples of each other; the zero vector is of none."""
-    if all(value == 0 for value in a):
+    a = [value if isinstance(value, tuple) else (value, fmpq(0)) for value in typed]
+    b = [evaluate_complex(parse_entry(entry), frozenset("i")) for entry in components]
+    if all(part == 0 for value in a for part in value):
         return False
     return all(
-        values_agree(a[i] * b[j], a[j] * b[i]) is not False for i in range(len(a)) for j in range(i)
+        values_agree(x, y) is not False
+        for i in range(len(a))
+        for j in range(i)
+        for x, y in zip(multiply(a[i], b[j]), multiply(a[j], b[i]), strict=True)
     )
 
 
@@ -135,14 +167,18 @@ def ask(part: PartContext) -> AskedPart[ColumnSpec]:
     return AskedPart(spec, InputControl("line"), mistakes=misconception_specs(spec, "components"))
 
 
-def _list_components(part: PartContext, form: Expr) -> list[str]:
+def _list_components(part: PartContext, form: Expr) -> list[EntryText]:
     """Return the components of a form as text; a matrix of one row is a vector, too."""
-    vector = require_form(part, form, "vector", "matrix")
-    args = vector.args
-    if vector.op == "matrix":
+    return _write_components(require_form(part, form, "vector", "matrix"))
+
+
+def _write_components(form: Expr) -> list[EntryText]:
+    """Return the components of a vector, or of a matrix of one row, as a key has them."""
+    args = form.args if isinstance(form, Call) else ()
+    if isinstance(form, Call) and form.op == "matrix":
         (row,) = args
         args = row.args if isinstance(row, Call) else ()
-    return [format_plain(arg) for arg in args]
+    return [format_entry(arg) for arg in args]
 
 
 def input_hints(spec: ColumnSpec, lang: str) -> tuple[TextOrInlines, ...]:

@@ -173,5 +173,8 @@ def _typed_line(
         if isinstance(one, FormulaReadError):
             return one
         filled += one if len(values) == 1 else one or [""]
+    if shape.rows and len(filled) > 1 and len(filled) % shape.rows == 0 and any(filled):
+        width = len(filled) // shape.rows
+        return "; ".join(", ".join(filled[at : at + width]) for at in range(0, len(filled), width))
     control = InputControl(shape.form, boxes=tuple(map(InputBox, shape.names)), named=shape.named)
     return join_fields(control, filled, stems)

@@ -7,29 +7,44 @@ An answer that is more than these becomes an extended text, which a person grade
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import singledispatch
 from typing import ClassVar
 
 from msgspec import structs
 
-from quizgen.bank.markdown import Inline, PlainText
 from quizgen.core.decoding import convert
 from quizgen.grading.reading import bases
 from quizgen.grading.spec import AnySpec, NumericSpec, ScalarSpec, is_whole_number
 from quizgen.grading.spec import VectorSpec as SeveralNumbers
-from quizgen.kinds import angle, choice, code, gap, match, number, order, point, table, vector
+from quizgen.kinds import (
+    angle,
+    choice,
+    code,
+    gap,
+    match,
+    matrix,
+    number,
+    order,
+    point,
+    table,
+    vector,
+)
 from quizgen.kinds import quantity as quantities
 from quizgen.kinds.asking import KeyNumbers, rounding_hint
+from quizgen.kinds.forms import ROUNDED
 from quizgen.lms.answer_ranges import AnswerRange, WrongValue, disjoint_ranges
 from quizgen.lms.manifest import InteractionKind
 from quizgen.locale import translate
 from quizgen.maths.constants import parse_exact
 from quizgen.maths.notation import pretty
 from quizgen.maths.numbers import count_decimals
+from quizgen.maths.tolerance import Tolerance
 from quizgen.maths.values import Value
 from quizgen.question.compose import QuestionPart
 from quizgen.question.solution import PartSolution
+from quizgen.typeset.prose import Inline, PlainText
 
 # A sentence, or pieces of one.
 FeedbackText = tuple[Inline, ...]
@@ -345,9 +360,55 @@ def _vector_interactions(spec: vector.ColumnSpec, solved: SolvedPart) -> tuple[I
     """Return a numeric interaction for each component; any multiple is graded manually."""
     if spec.up_to:
         return (solved.as_manual("scale"),)
-    numbers = {"kind": "point", "values": spec.components, "traps": spec.traps}
-    rule = spec.stated_rule() or {"exact": True}
-    return _numeric_interactions(convert(numbers | rule, point.PointSpec), solved, [])
+    return _entry_interactions(spec, solved, [spec.components], [[""] * len(spec.components)])
+
+
+@_interactions_of.register
+def _matrix_interactions(spec: matrix.MatrixSpec, solved: SolvedPart) -> tuple[Interaction, ...]:
+    """Return a numeric interaction for each entry, row by row, named by its row and column."""
+    rows = range(1, len(spec.entries) + 1)
+    columns = range(1, len(spec.entries[0]) + 1)
+    names = [[f"a_{row}{column}" for column in columns] for row in rows]
+    return _entry_interactions(spec, solved, spec.entries, names)
+
+
+def _entry_interactions(
+    spec: matrix.MatrixSpec | vector.ColumnSpec,
+    solved: SolvedPart,
+    entries: matrix.Entries,
+    names: list[list[str]],
+) -> tuple[Interaction, ...]:
+    """Return a numeric interaction for each entry; complex ones are graded manually.
+
+    Without a rule an entry may be rounded where it has no finite decimal, as in grading.
+    """
+    found: list[Interaction] = []
+    for r, row in enumerate(entries):
+        for c, entry in enumerate(row):
+            wrong = _list_wrong_entries(spec, solved, (r, c))
+            if isinstance(entry, list):
+                return (solved.as_manual(spec.kind),)
+            key = parse_exact(entry)
+            default = {"exact": True} if _has_finite_decimal(key) else {"rel": str(ROUNDED)}
+            rule = convert(spec.stated_rule() or default, Tolerance)
+            precision = rounding_hint(rule, [entry], solved.lang) if spec.stated_rule() else ""
+            ranges = disjoint_ranges(rule, key, wrong)
+            found.append(NumericInteraction(names[r][c], "", ranges, precision))
+    return tuple(found)
+
+
+def _list_wrong_entries(
+    spec: matrix.MatrixSpec | vector.ColumnSpec, solved: SolvedPart, place: tuple[int, int]
+) -> list[WrongValue]:
+    """Return what each mistake makes of the entry at a row and column, if it has one there."""
+    found = []
+    for name, trap in spec.traps.items():
+        rows = [trap] if isinstance(spec, vector.ColumnSpec) else trap
+        with suppress(IndexError):
+            entry = rows[place[0]][place[1]]
+            if isinstance(entry, str):
+                found.append(WrongValue(parse_exact(entry), solved.mistakes.get(name, ()), 0.0))
+    return found
 
 
 @_interactions_of.register

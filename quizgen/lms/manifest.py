@@ -87,11 +87,15 @@ class ManifestQuestion(msgspec.Struct, frozen=True):
 
 
 class ResponseShape(msgspec.Struct, frozen=True, omit_defaults=True):
-    """How a part is answered in one line: see ``quizgen.kinds.contract.InputControl``."""
+    """How a part is answered in one line: see ``quizgen.kinds.contract.InputControl``.
+
+    ``rows`` are those that fields for single numbers stand in: of a matrix.
+    """
 
     form: InputForm
     names: list[str] = []
     named: bool = False
+    rows: int = 0
 
 
 class ManifestItem(msgspec.Struct, dict=True):

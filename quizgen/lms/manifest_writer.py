@@ -29,14 +29,20 @@ _HTML_TAG = re.compile(r"<[^>]*>")
 def manifest_entry(item: ExportItem, questions: Iterable[ManifestQuestion]) -> ManifestItem:
     """Return the line of an item, with the questions that it became."""
     question = msgspec.Raw(msgspec.json.encode(item.key_question))
-    shapes = {part.field.id: _response_shape(part) for part in item.question.parts}
+    kinds = {part.id: part.spec["kind"] for part in item.key_question.parts}
+    shapes = {
+        part.field.id: _response_shape(part, matrix=kinds[part.field.id] == "matrix")
+        for part in item.question.parts
+    }
     return ManifestItem(item.id, item.slot, item.lang, question, shapes, list(questions))
 
 
-def _response_shape(part: QuestionPart) -> ResponseShape:
+def _response_shape(part: QuestionPart, *, matrix: bool) -> ResponseShape:
     """Return how a part is answered in one line."""
     control = part.field.control
-    return ResponseShape(control.form, [box.name for box in control.boxes], control.named)
+    rows = control.lines if matrix else 0
+    names = [box.name for box in control.boxes]
+    return ResponseShape(control.form, names, control.named, rows)
 
 
 def manifest_question(question: CourseQuestion, *, embedded: bool = False) -> ManifestQuestion:

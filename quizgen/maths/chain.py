@@ -27,6 +27,7 @@ from quizgen.maths.number_systems import (
 from quizgen.maths.numbers import is_short_decimal, to_fraction, to_rational
 from quizgen.maths.operators import CHECKED, LIST_OPERATORS, OPERATORS
 from quizgen.maths.precision import PRECISION, working_precision
+from quizgen.maths.recipes import Recipe
 from quizgen.maths.tidy import tidy_formula
 from quizgen.maths.tree import Call, Expr, Num, names_in, operators_in, substitute, walk_tree
 from quizgen.maths.values import Value, Values
@@ -42,13 +43,15 @@ MOST_WAYS = 64
 class ChainStep(msgspec.Struct, frozen=True):
     """One step: the quantity it defines, its formula, and the unit it is shown in.
 
-    ``forms`` are the formulas, matrices and sets that were put into it, by their names.
+    ``forms`` are the formulas, matrices and sets that were put into it, by their names; ``recipe``
+    says how, if it can be done again with other ones.
     """
 
     name: str
     expr: Expr
     unit: str = ""
     forms: tuple[str, ...] = ()
+    recipe: Recipe | None = None
 
 
 class Chain(msgspec.Struct, frozen=True, dict=True):

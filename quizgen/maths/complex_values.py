@@ -64,7 +64,7 @@ def complex_system() -> NumberSystem:
         "add": lambda a, b: (a[0] + b[0], a[1] + b[1]),
         "sub": lambda a, b: (a[0] - b[0], a[1] - b[1]),
         "neg": lambda a: (-a[0], -a[1]),
-        "mul": _multiply,
+        "mul": multiply,
         "div": _divide,
         "pow": _raise,
         "exp": _exponentiate,
@@ -75,7 +75,7 @@ def complex_system() -> NumberSystem:
     return NumberSystem("complex", lambda q: (to_rational(q), fmpq(0)), ops)
 
 
-def _multiply(a: ComplexValue, b: ComplexValue) -> ComplexValue:
+def multiply(a: ComplexValue, b: ComplexValue) -> ComplexValue:
     """Return the product of two complex numbers."""
     return a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]
 
@@ -84,7 +84,7 @@ def _divide(a: ComplexValue, b: ComplexValue) -> ComplexValue:
     """Return the quotient of two complex numbers; ``MathError`` if the divisor is zero."""
     divide = bounded_exact_system().ops["div"]
     size = b[0] * b[0] + b[1] * b[1]
-    top = _multiply(a, (b[0], -b[1]))
+    top = multiply(a, (b[0], -b[1]))
     return divide(top[0], size), divide(top[1], size)
 
 
@@ -100,7 +100,7 @@ def _raise(a: ComplexValue, b: ComplexValue) -> ComplexValue:
     if b[1] != 0 or not isinstance(power, fmpq) or power.q != 1 or abs(power) > LARGEST_POWER:
         raise MathError("a power that is no whole number")
     one: ComplexValue = (fmpq(1), fmpq(0))
-    raised = reduce(_multiply, [a] * abs(int(power.p)), one)
+    raised = reduce(multiply, [a] * abs(int(power.p)), one)
     return _divide(one, raised) if power < 0 else raised
 
 

@@ -272,6 +272,14 @@ REWRITES: dict[type, type] = {
     sympy.sinc: sympy.sin,
     sympy.frac: sympy.floor,
     sympy.catalan: sympy.binomial,
+    sympy.acoth: sympy.log,
+    sympy.asech: sympy.log,
+    sympy.acsch: sympy.log,
+    sympy.erf2: sympy.erf,
+    sympy.trigamma: sympy.polygamma,
+    sympy.jn: sympy.besselj,
+    sympy.yn: sympy.bessely,
+    sympy.KroneckerDelta: sympy.Piecewise,
 }
 """Functions that are said by another one."""
 
@@ -289,7 +297,16 @@ def _rewrite_function(expression: sympy.Basic) -> Expr:
 
 def _make_function_converter(op: str) -> Callable[[sympy.Basic], Expr]:
     """Return the rule for a function that both have."""
-    return lambda expression: Call(op, _convert_arguments(expression))
+    row = OPERATORS[op]
+
+    def rule(expression: sympy.Basic) -> Expr:
+        """Return the call; ``BankError`` for more arguments than ours takes."""
+        args = _convert_arguments(expression)
+        if not row.least <= len(args) <= row.most:
+            raise BankError(f"no formula for {expression}: {op} takes {row.least} argument(s) here")
+        return Call(op, args)
+
+    return rule
 
 
 def _reject_expression(expression: sympy.Basic) -> Expr:
@@ -310,6 +327,8 @@ _RULES: dict[type, Callable[[sympy.Basic], Expr]] = {
     sympy.Float: _convert_float,
     type(sympy.pi): _convert_pi,
     type(sympy.E): _convert_euler_number,
+    type(sympy.EulerGamma): lambda _: Call("neg", (Call("digamma", (_ONE,)),)),
+    type(sympy.GoldenRatio): lambda _: from_sympy((1 + sympy.sqrt(5)) / 2),
     sympy.Add: _convert_sum,
     sympy.Mul: _convert_product,
     sympy.Pow: _convert_power,

@@ -19,6 +19,8 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
 
+import msgspec
+
 from quizgen.core.errors import BankError
 from quizgen.maths.chain import Chain, ChainStep
 from quizgen.maths.tree import names_in
@@ -40,6 +42,25 @@ def work_out(compute: Callable[[], T]) -> T:
 
     with evaluate(True):
         return compute()
+
+
+def leave_symbolic(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return one of SymPy's functions of numbers so that it waits for drawn ones.
+
+    Of names, ``gcd(a, b)`` is 1, as of polynomials, and ``isprime(a)`` fails.
+    """
+    from sympy import Function
+
+    module, name = getattr(function, "__module__", ""), getattr(function, "__name__", "")
+
+    def call(*args: Any) -> Any:
+        """Return the value, or the call as it is written if it has names in it."""
+        if any(getattr(arg, "free_symbols", ()) for arg in args):
+            return Function({"igcd": "gcd", "ilcm": "lcm"}.get(name, name))(*args)
+        return function(*args)
+
+    waits = isinstance(module, str) and module.startswith("sympy.")
+    return call if waits and not isinstance(function, type) else function
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,12 +168,14 @@ class _ConvertedSteps:
         """Convert a step, and what mistakes put in its place or make follow for it."""
         name = _name_step(step)
         found, is_form = _convert_step(step, resolver)
-        (self.forms if is_form else self.steps).append(found)
         for trap in self.traps:
             if trap in replaced or trap in self._slipped:
                 self._add_wrong(trap, step, replaced.get(trap), found, resolver)
+        recipe = resolver.find_recipe(step.expr) if found.forms else None
+        whole = msgspec.structs.replace(found, recipe=recipe)
+        (self.forms if is_form else self.steps).append(whole)
         if is_form:
-            resolver.remember(name, step.expr)
+            resolver.remember(name, step.expr, found.expr)
 
     def _add_wrong(
         self,
@@ -173,7 +196,9 @@ class _ConvertedSteps:
         if replaced or wrong != right:
             (self.form_traps if is_form else self.traps)[trap].append(wrong)
         if is_form:
-            self._slipped.setdefault(trap, resolver.copy()).remember(right.name, taken.expr)
+            self._slipped.setdefault(trap, resolver.copy()).remember(
+                right.name, taken.expr, wrong.expr
+            )
 
 
 def _name_step(step: Step) -> str:

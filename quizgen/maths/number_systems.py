@@ -23,9 +23,9 @@ from quizgen.core.errors import MathError
 from quizgen.maths.operators import (
     BINDERS,
     CONDITIONS,
-    DISTRIBUTIONS,
     MANY,
     OPERATORS,
+    UNEVALUATED,
     OperatorSyntax,
 )
 from quizgen.maths.tree import Call, Expr, Num, Sym, operators_in
@@ -406,13 +406,15 @@ def exact_system() -> NumberSystem:
     from flint import fmpq
 
     from quizgen.maths import exact as own
-    from quizgen.maths import special
+    from quizgen.maths import further, special
     from quizgen.maths.list_operators import build_list_functions
     from quizgen.maths.numbers import to_rational
     from quizgen.maths.precision import at_working_precision
 
     lists = build_list_functions(own.square_root, fmpq)
-    ops = operator_functions("exact", own, operator, special, own.BALLS, **_LOGIC, **lists)
+    ops = operator_functions(
+        "exact", own, operator, special, own.BALLS, further.FUNCTIONS, **_LOGIC, **lists
+    )
     return NumberSystem("exact", to_rational, ops, guard=at_working_precision)
 
 
@@ -546,7 +548,7 @@ def sympy_system() -> NumberSystem:
     import sympy
 
     own: dict[str, OperatorFunction] = {
-        **{name: sympy.Function(name) for name in DISTRIBUTIONS},
+        **{name: sympy.Function(name) for name in UNEVALUATED},
         "log2": lambda x: sympy.log(x) / sympy.log(2),
         "log10": lambda x: sympy.log(x) / sympy.log(10),
         "round_float_half_away": lambda x: (

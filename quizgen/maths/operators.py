@@ -110,6 +110,32 @@ def _make_special_operator(
     return Operator(name, count, count, called=called)
 
 
+FURTHER = {
+    **dict.fromkeys(
+        ("Ei", "Li", "Si", "Ci", "Shi", "Chi", "li", "erfi", "fresnels", "fresnelc", "airyai",
+         "airybi", "airyaiprime", "airybiprime", "loggamma", "digamma", "elliptic_k",
+         "elliptic_e", "dirichlet_eta"), (1, 1),
+    ),
+    **dict.fromkeys(("expint", "polylog", "polygamma", "elliptic_f"), (2, 2)),
+    **dict.fromkeys(("legendre", "chebyshevt", "chebyshevu", "hermite", "laguerre"), (2, 2)),
+    **dict.fromkeys(
+        ("fibonacci", "lucas", "tribonacci", "bernoulli", "euler", "bell", "genocchi", "partition",
+         "factorial2", "subfactorial", "primorial", "totient", "reduced_totient", "mobius",
+         "primenu", "primeomega", "primepi", "prime", "nextprime", "prevprime", "isprime"), (1, 1),
+    ),
+    **dict.fromkeys(
+        ("jacobi_symbol", "legendre_symbol", "mod_inverse", "n_order", "multiplicity"), (2, 2)
+    ),
+    "harmonic": (1, 2),
+    "divisor_sigma": (1, 2),
+    "stirling": (2, 2),
+    **dict.fromkeys(("gcd", "lcm"), (2, MANY)),
+}  # fmt: skip
+"""Functions that some subject needs, under SymPy's names, with numbers of arguments.
+
+``quizgen.maths.further`` has each of them. Their names may name quantities, too: Si is silicon.
+"""
+
 _DIVIDED = dict.fromkeys(SYSTEMS, "truediv") | {"exact": "divide"}
 
 _ROWS = (
@@ -161,6 +187,10 @@ _ROWS = (
         for name in ("t_cdf", "t_quantile", "chi2_cdf", "chi2_quantile")
     ),
     *(_make_special_operator(name, 3) for name in ("f_cdf", "f_quantile")),
+    *(
+        Operator(name, *count, folds=count[1] == MANY, called={"exact": name})
+        for name, count in FURTHER.items()
+    ),
     *(Operator(name, 4, 4, absent=frozenset(SYSTEMS)) for name in ("sum", "product", "integral")),
     Operator("pi", 0, 0, OperatorSyntax.CONSTANT, ("pi", "π"), "CONSTANT"),
     Operator("piecewise", 3, MANY - 1, absent=frozenset(SYSTEMS) - {"arrays"}),
@@ -180,6 +210,12 @@ OPERATORS = {row.name: row for row in _ROWS}
 
 DISTRIBUTIONS = frozenset(name for name in OPERATORS if name.endswith(("_cdf", "_quantile")))
 """Operators for which SymPy has no class: ``Function("t_quantile")`` writes one."""
+
+UNEVALUATED = DISTRIBUTIONS | {
+    "stirling", "gcd", "lcm", "primorial", "prime", "nextprime", "prevprime", "isprime",
+    "mod_inverse", "n_order", "multiplicity",
+}  # fmt: skip
+"""Operators that SymPy can only write as functions without a meaning: it has no class for them."""
 
 BINDERS = frozenset({"sum", "product", "integral"})
 """Operators of a bound name, its first and last value, and what is computed for each of them."""

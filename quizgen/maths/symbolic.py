@@ -8,7 +8,9 @@ tree, too, whose outermost operators are those of ``FORMS``.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from typing import Any
 
 import sympy
 from sympy.core.function import AppliedUndef
@@ -17,9 +19,14 @@ from sympy.matrices.expressions.matexpr import MatrixExpr
 
 from quizgen.core.errors import BankError
 from quizgen.maths.from_sympy import from_sympy
+from quizgen.maths.recipes import STRUCTURES, Recipe, Use
 from quizgen.maths.tree import Call, Expr, Num, make_number, names_in
 
 _COMPLEX = (sympy.re, sympy.im, sympy.conjugate, sympy.arg)
+_UNWORKABLE = (BankError, AttributeError, TypeError, ValueError, RuntimeError)
+"""What is raised where SymPy cannot do what a solver asks, or comes to what is no formula."""
+_LARGEST_ENTRIES = 9
+"""Most entries of a matrix that is worked with entry by entry, as unknowns."""
 _EVALUATED = (sympy.Derivative, sympy.Integral, sympy.Limit, sympy.Subs)
 
 
@@ -35,6 +42,7 @@ class FormResolver:
     def __init__(self, free: tuple[str, ...]) -> None:
         self.free = frozenset(free)
         self.forms: dict[str, sympy.Basic] = {}
+        self.trees: dict[str, Expr] = {}
 
     def resolve(self, expression: sympy.Basic) -> tuple[Expr, bool]:
         """Return the tree of an expression, and whether it is a form.
@@ -47,22 +55,33 @@ class FormResolver:
         with sympy.evaluate(True):
             try:
                 written = _make_strict(expression)
-                whole = self._put_forms_in(written)
+                whole = self._divide_polynomials(self._put_forms_in(written))
                 return self._convert(whole)
             except BankError:
                 raise
-            except (AttributeError, TypeError, ValueError, RuntimeError) as error:
+            except _UNWORKABLE[1:] as error:
                 what = f"SymPy cannot work {expression} out: {type(error).__name__}: {error}"
                 raise BankError(f"{what} (compute it before `with evaluate(False)`)") from error
+
+    def _divide_polynomials(self, whole: sympy.Basic) -> sympy.Basic:
+        """Return an expression with ``gcd`` and ``lcm`` of polynomials worked out."""
+        calls = [
+            call for call in getattr(whole, "atoms", lambda *_: ())(AppliedUndef)
+            if call.func.__name__ in {"gcd", "lcm"} and self._is_free(*call.args)
+        ]  # fmt: skip
+        found = {call: getattr(sympy, call.func.__name__)(*call.args) for call in calls}
+        return whole.xreplace(found) if found else whole
 
     def copy(self) -> FormResolver:
         """Return another one that has seen the same steps, to go on from here in a wrong way."""
         found = FormResolver(tuple(self.free))
         found.forms.update(self.forms)
+        found.trees.update(self.trees)
         return found
 
-    def remember(self, name: str, expression: sympy.Basic) -> None:
-        """Have later steps see a form under its name."""
+    def remember(self, name: str, expression: sympy.Basic, tree: Expr) -> None:
+        """Have later steps see a form under its name, with the tree that it came to."""
+        self.trees[name] = tree
         with sympy.evaluate(True):
             self.forms[name] = self._put_forms_in(_make_strict(expression))
 
@@ -72,6 +91,18 @@ class FormResolver:
         names = [call.func.__name__ for call in calls]
         names += [getattr(symbol, "name", "") for symbol in getattr(written, "free_symbols", ())]
         return tuple(name for name in self.forms if name in names)
+
+    def find_recipe(self, written: sympy.Basic) -> Recipe | None:
+        """Return how a step follows from the forms in it; None where SymPy solved for something."""
+        names = self.find_forms(written)
+        with sympy.evaluate(True), suppress(*_UNWORKABLE):
+            uses = _Uses(self.trees, self.free)
+            whole = uses.put_in(_make_strict(written), names)
+            whole = whole.doit() if whole.has(sympy.MatrixBase, MatrixExpr) else whole
+            if whole.has(sympy.Integral, sympy.Sum, sympy.Product):
+                return Recipe(from_sympy(whole), tuple(uses.found))
+            return Recipe(self._convert(whole)[0], tuple(uses.found))
+        return None
 
     def _put_forms_in(self, written: sympy.Basic) -> sympy.Basic:
         """Return an expression with the forms of earlier steps in place of their names.
@@ -107,7 +138,7 @@ class FormResolver:
             *(condition for _, condition in whole.args)
         ):
             return self._convert_cases(whole)
-        found = _convert_structure(whole)
+        found = _convert_structure(whole, self._convert_entry)
         if found is not None:
             return found, True
         if _has_complex(whole):
@@ -117,6 +148,10 @@ class FormResolver:
         if free and not _is_written(whole):
             tree = _put_free_first(tree, self.free)
         return tree, bool(free)
+
+    def _convert_entry(self, whole: sympy.Basic) -> Expr:
+        """Return the tree of an entry of a matrix, which may be complex."""
+        return self._convert_complex(whole)[0] if _has_complex(whole) else _convert_evaluated(whole)
 
     def _is_free(self, *parts: sympy.Basic) -> bool:
         """Return whether any of these holds a name that no draw gives."""
@@ -152,14 +187,92 @@ class FormResolver:
         return Call("complex", tuple(map(from_sympy, parts))), True
 
 
-def _convert_structure(whole: sympy.Basic) -> Expr | None:
+class _Uses:
+    """Names put in place of forms in an expression.
+
+    Parameters
+    ----------
+    trees : mapping of str to Expr
+        What each form came to.
+    free : collection of str
+        Names that no draw gives.
+    """
+
+    def __init__(self, trees: Mapping[str, Expr], free: frozenset[str]) -> None:
+        self.trees, self.free = trees, free
+        self.found: list[Use] = []
+
+    def put_in(self, written: sympy.Basic, forms: Sequence[str]) -> sympy.Basic:
+        """Return an expression with names for what it takes of forms.
+
+        Raises ``BankError`` if a form in it is none whose parts can be named.
+        """
+        symbols = {str(getattr(s, "name", "")): s for s in getattr(written, "free_symbols", ())}
+        place = {
+            symbols[name]: self._name_form(name, symbols[name]) for name in forms if name in symbols
+        }
+        whole = written.subs(place) if place else written
+        for kind in (sympy.Subs, sympy.Derivative, AppliedUndef):
+            calls = [one for one in whole.atoms(kind) if self._find_call(one) in forms]
+            whole = whole.xreplace({one: self._name_call(one) for one in calls})
+        return whole
+
+    def _find_call(self, one: sympy.Basic) -> str:
+        """Return the form that is called, maybe within a derivative."""
+        while isinstance(one, sympy.Subs | sympy.Derivative):
+            one = one.expr
+        return str(one.func.__name__) if isinstance(one, AppliedUndef) else ""
+
+    def _add(self, of: str, **how: Any) -> sympy.Symbol:
+        """Return a new name for a use of a form."""
+        name = f"carried{len(self.found) + 1}"
+        self.found.append(Use(name, of, **how))
+        return sympy.Symbol(name)
+
+    def _name_form(self, name: str, symbol: sympy.Basic) -> sympy.Basic:
+        """Return names for the numbers of a matrix or complex number, one for a formula."""
+        tree = self.trees[name]
+        if isinstance(tree, Call) and tree.op in {"matrix", "vector"}:
+            rows = [
+                [(r, c) for c in range(len(row.args))] if isinstance(row, Call) and row.op == "row"
+                else [(r,)] for r, row in enumerate(tree.args)
+            ]  # fmt: skip
+            if sum(map(len, rows)) > _LARGEST_ENTRIES:
+                raise BankError(f"{name} is too large to be worked with entry by entry")
+            return sympy.Matrix([[self._add(name, entry=one) for one in row] for row in rows])
+        if isinstance(tree, Call) and tree.op == "complex":
+            real, imaginary = (self._add(name, entry=(part,)) for part in (0, 1))
+            return real + sympy.I * imaginary
+        if (isinstance(tree, Call) and tree.op in STRUCTURES) or isinstance(symbol, MatrixExpr):
+            raise BankError(f"{name} is no formula")
+        return self._add(name)
+
+    def _name_call(self, one: sympy.Basic) -> sympy.Symbol:
+        """Return a name for ``f(x)``, ``f(2)``, its derivative, or the derivative at a place."""
+        later: dict[str, sympy.Basic] = {}
+        if isinstance(one, sympy.Subs):
+            later = {s.name: value for s, value in zip(one.variables, one.point, strict=True)}
+            one = one.expr
+        variables: tuple[sympy.Symbol, ...] = ()
+        if isinstance(one, sympy.Derivative):
+            variables, one = one.variables, one.expr
+        form = self.trees[one.func.__name__]
+        names = dict(zip(sorted(names_in(form) & self.free), one.args, strict=False))
+        by = tuple(next(n for n, arg in names.items() if arg == variable) for variable in variables)
+        ends = {n: later.get(getattr(arg, "name", ""), arg) for n, arg in names.items()}
+        moved = {n: arg for n, arg in ends.items() if getattr(arg, "name", "") != n}
+        at = tuple((n, from_sympy(arg)) for n, arg in moved.items())
+        return self._add(one.func.__name__, by=by, at=at)
+
+
+def _convert_structure(whole: sympy.Basic, convert: Callable[[sympy.Basic], Expr]) -> Expr | None:
     """Return the tree of a matrix, a set, a vector, an equation or inequality, else None."""
     if isinstance(whole, sympy.MatrixBase | MatrixExpr):
-        return _convert_matrix(whole)
+        return _convert_matrix(whole, convert)
     if isinstance(whole, sympy.Set):
         return _convert_set(whole.doit())
     if isinstance(whole, sympy.Tuple | list | tuple):
-        return Call("vector", tuple(map(from_sympy, whole)))
+        return Call("vector", tuple(map(convert, whole)))
     if isinstance(whole, sympy.Eq | sympy.Lt | sympy.Le | sympy.Gt | sympy.Ge):
         return from_sympy(whole)
     return None
@@ -179,6 +292,12 @@ def _evaluate(whole: sympy.Basic) -> sympy.Basic:
     if any(_is_infinite(part) for part in whole.atoms(sympy.Sum, sympy.Product)):
         whole = whole.doit()
     return whole
+
+
+def _assume_real(whole: sympy.Basic) -> sympy.Basic:
+    """Return an expression whose names are real numbers: ``a < oo`` holds, and is left out."""
+    real = {s: sympy.Dummy(s.name, real=True) for s in whole.free_symbols if s.is_real is None}
+    return whole.xreplace(real).doit().xreplace({dummy: name for name, dummy in real.items()})
 
 
 def _order_powers(whole: sympy.Basic, free: Sequence[sympy.Symbol]) -> sympy.Basic:
@@ -201,9 +320,9 @@ def _convert_evaluated(whole: sympy.Basic, free: Sequence[sympy.Symbol] = ()) ->
     try:
         return from_sympy(_order_powers(_evaluate(whole), free))
     except BankError:
-        if not (hasattr(whole, "has") and whole.has(sympy.Integral)):
+        if not (hasattr(whole, "has") and whole.has(sympy.Integral, sympy.oo)):
             raise
-        return from_sympy(whole)
+        return from_sympy(whole if whole.has(sympy.Integral) else _assume_real(whole))
 
 
 def _put_free_first(expr: Expr, free: frozenset[str]) -> Expr:
@@ -233,15 +352,15 @@ def _is_infinite(part: sympy.Basic) -> bool:
     return any(not bound.is_finite for limit in part.limits for bound in limit[1:])
 
 
-def _convert_matrix(whole: sympy.Basic) -> Expr:
+def _convert_matrix(whole: sympy.Basic, convert: Callable[[sympy.Basic], Expr]) -> Expr:
     """Return a matrix with evaluated entries; one of a single column is a vector."""
     explicit = whole.doit().as_explicit() if isinstance(whole, MatrixExpr) else whole
     rows = explicit.tolist()
     if explicit.shape[1] == 1:
-        return Call("vector", tuple(_convert_evaluated(row[0]) for row in rows))
+        return Call("vector", tuple(convert(row[0]) for row in rows))
     return Call(
         "matrix",
-        tuple(Call("row", tuple(_convert_evaluated(x) for x in row)) for row in rows),
+        tuple(Call("row", tuple(convert(x) for x in row)) for row in rows),
     )
 
 

@@ -24,6 +24,8 @@ from quizgen.maths.chain import Chain, ChainStep
 from quizgen.maths.constants import parse_exact
 from quizgen.maths.numbers import parse_written_number
 from quizgen.maths.precision import working_precision
+from quizgen.maths.recipes import decode_form, decode_recipe
+from quizgen.maths.tree import Expr
 from quizgen.maths.units import UnitRegistry, build_unit_registry
 from quizgen.maths.values import map_numbers
 from quizgen.paper.code import content_digest
@@ -60,6 +62,8 @@ class KeyChain(msgspec.Struct, omit_defaults=True):
 
     ``define`` holds units of the bank's own. ``checked`` are steps whose values were computed
     twice and compared, but are not proved. ``alternatives`` are other right formulas of steps.
+    ``forms`` are formulas over ``free`` names, matrices and the like; ``recipes`` say how steps and
+    forms follow from other forms.
     """
 
     given: dict[str, KeyGiven]
@@ -67,25 +71,48 @@ class KeyChain(msgspec.Struct, omit_defaults=True):
     define: list[str] = []
     checked: list[str] = []
     alternatives: list[tuple[str, str]] = []
+    forms: dict[str, Any] = {}
+    recipes: dict[str, list[Any]] = {}
+    free: list[str] = []
 
     def units(self) -> dict[str, str]:
         """Return the shown unit of each quantity, by name."""
         given = {name: given.unit for name, given in self.given.items()}
         return given | {name: unit for name, _, unit in self.steps}
 
-    def context(self, earlier: Mapping[str, fmpq]) -> QuestionContext:
-        """Return the question around a part, with the student's earlier values.
+    def context(
+        self, earlier: Mapping[str, fmpq], forms: Mapping[str, Expr] | None = None
+    ) -> QuestionContext:
+        """Return the question around a part, with the student's earlier values and forms.
 
         Raises
         ------
         FormulaError
             If a formula cannot be read.
+        ValueError
+            If a form or a recipe is none.
         """
         units = tuple((name, given.unit) for name, given in self.given.items())
         others = tuple((name, formula, "") for name, formula in self.alternatives)
         chain = _build_chain(units, tuple(map(tuple, self.steps)), others)
         values = {name: given.parse_value() for name, given in self.given.items()}
-        return QuestionContext(chain, values, earlier)
+        if self.forms:
+            chain = self._add_forms(chain)
+        return QuestionContext(chain, values, earlier, forms or {})
+
+    def _add_forms(self, chain: Chain) -> Chain:
+        """Return the chain with its forms, and with the recipes of its steps."""
+        recipes = {name: decode_recipe(written) for name, written in self.recipes.items()}
+        forms = [
+            ChainStep(name, decode_form(written), recipe=recipes.get(name))
+            for name, written in self.forms.items()
+        ]
+        steps = [
+            msgspec.structs.replace(step, recipe=recipes.get(step.name)) for step in chain.steps
+        ]
+        return msgspec.structs.replace(
+            chain, steps=tuple(steps), forms=tuple(forms), free=tuple(self.free)
+        )
 
 
 @lru_cache(maxsize=512)
@@ -323,7 +350,7 @@ def _check_chain(question: KeyQuestion, place: str) -> None:
         question.chain.context({})
         for unit in question.chain.units().values():
             question.known_units().factor(unit)
-    except FormulaError as error:
+    except (FormulaError, ValueError, TypeError) as error:
         raise KeyFileError(f"{place}: question {question.number!r}: chain: {error}") from None
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from fractions import Fraction
 from typing import Any, NamedTuple
 
@@ -10,6 +11,7 @@ import msgspec
 from msgspec import structs
 
 from quizgen.core.errors import require_one_of
+from quizgen.grading.diagnosis.carry_forward import judge_carried_form
 from quizgen.grading.judge import explain_verdict, judge_answer, read_error_verdict
 from quizgen.grading.options import DECIMALS, GradingOptions
 from quizgen.grading.spec import AnySpec
@@ -18,6 +20,7 @@ from quizgen.locale import list_languages
 from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.numbers import to_float
 from quizgen.maths.precision import working_precision
+from quizgen.maths.tree import Expr
 from quizgen.paper.answer_key import AnswerKey, KeyPart, KeyQuestion, parse_answer_key
 
 QUARTERS = 4
@@ -193,6 +196,7 @@ class QuestionGrader:
         self.question, self.proven = question, proven
         self.options = options
         self.earlier: dict[str, Any] = {}
+        self.forms: dict[str, Expr] = {}
 
     def judge_part(self, part: KeyPart, typed: str, decimal: str = "") -> PartResult:
         """Return the result of one part without sentences; graded again, it replaces its values.
@@ -233,10 +237,22 @@ class QuestionGrader:
     def _judge_in_question(self, part: KeyPart, spec: AnySpec, typed: str, decimal: str) -> Verdict:
         """Return the verdict on one part, with earlier values of the same student in mind."""
         options = structs.replace(self.options, points=part.points_exact(), decimal=decimal)
-        verdict = _judge_with_context(self.question, spec, typed, options, self.earlier)
+        verdict = _judge_with_context(self.question, spec, typed, options, self.earlier, self.forms)
         if self.question.chain is not None:
             _remember_own_values(self.question, spec, verdict, self.earlier)
+            self._remember_own_form(spec, typed, options, verdict)
         return verdict
+
+    def _remember_own_form(
+        self, spec: AnySpec, typed: str, options: GradingOptions, verdict: Verdict
+    ) -> None:
+        """Keep a wrong formula, matrix, ... for the parts that follow; forget one put right."""
+        for name in spec.quantities() if verdict.is_graded else ():
+            self.forms.pop(name, None)
+            with suppress(FormulaReadError):
+                form = None if verdict.credit == 1 else spec.read_form(typed, options)
+                if form is not None:
+                    self.forms[name] = form
 
     def ask_back(self, part: KeyPart, typed: str, why: FormulaReadError) -> PartResult:
         """Return the result of a part whose answer did not arrive as it was given.
@@ -253,6 +269,7 @@ def _judge_with_context(
     typed: str,
     options: GradingOptions,
     earlier: dict[str, Any],
+    forms: Mapping[str, Expr],
 ) -> Verdict:
     """Return the verdict on an answer, first without the question around it.
 
@@ -260,11 +277,14 @@ def _judge_with_context(
     error carried forward, and most answers are right.
     """
     verdict = judge_answer(spec, typed, options)
-    around = question.chain is not None and spec.quantities() and typed.strip()
-    if not around or not verdict.is_graded or verdict.verdict == "correct":
+    if question.chain is None or not spec.quantities() or not typed.strip():
         return verdict
-    context = question.chain.context(earlier) if question.chain else None
-    return judge_answer(spec, typed, structs.replace(options, context=context))
+    if not verdict.is_graded or verdict.verdict == "correct":
+        return verdict
+    context = question.chain.context(earlier, forms)
+    again = judge_answer(spec, typed, structs.replace(options, context=context))
+    carried = None if again.credit == 1 else judge_carried_form(spec, typed, options, context)
+    return carried or again
 
 
 def _remember_own_values(

@@ -15,7 +15,6 @@ import msgspec
 from markupsafe import Markup
 
 from quizgen.bank.levels import EXAM
-from quizgen.bank.markdown import Block, Inline
 from quizgen.bank.template import Template
 from quizgen.bank.variant import Variant, draw_variant, reference_variant
 from quizgen.core.errors import BankError
@@ -23,19 +22,21 @@ from quizgen.core.untrusted import error_context
 from quizgen.figures import FieldPicture, Figure
 from quizgen.grading.spec import AnySpec, NumericSpec
 from quizgen.kinds import KINDS
-from quizgen.kinds.contract import InputBox, InputControl
+from quizgen.kinds.contract import InputBox, InputControl, asked_form
+from quizgen.maths.chain import Chain
 from quizgen.maths.notation import format_tree
 from quizgen.maths.numbers import format_for_key
+from quizgen.maths.recipes import encode_form, encode_recipe
 from quizgen.maths.units import format_unit
 from quizgen.question.data_files import build_file_paragraphs
 from quizgen.question.figure import draw_question_figure
 from quizgen.question.html import blocks_to_html, inlines_to_html
-from quizgen.question.inlines import TypesetMaths, join_inlines, to_inlines
 from quizgen.question.interpolation import inlines_to_text
 from quizgen.question.levels import effective_level, load_level
 from quizgen.question.levels.contract import Choice, LevelPart
 from quizgen.question.localise import localise
 from quizgen.question.solution import Solution
+from quizgen.typeset.prose import Block, Inline, TypesetMaths, join_inlines, to_inlines
 
 
 class AnswerField(msgspec.Struct, frozen=True):
@@ -341,10 +342,27 @@ def _format_given_for_key(drawn: Variant, name: str) -> str | list[str]:
     return format_for_key(drawn.shown[name] * factor)
 
 
+def _write_forms(chain: Chain) -> dict[str, Any]:
+    """Return the forms of a chain, and how steps follow from them, as plain JSON."""
+    recipes = {
+        step.name: encode_recipe(step.recipe)
+        for step in (*chain.steps, *chain.forms)
+        if step.recipe is not None
+    }
+    return {
+        "forms": {step.name: encode_form(step.expr) for step in chain.forms},
+        **({"recipes": recipes} if recipes else {}),
+        **({"free": list(chain.free)} if chain.free else {}),
+    }
+
+
 def chain_as_json(drawn: Variant) -> dict[str, Any] | None:
     """Return the chain with its numbers as plain JSON, for grading without SymPy."""
     chain = drawn.template.chain
-    if not chain.steps:
+    carries = len(drawn.template.rules.part) > 1 and any(
+        asked_form(part.answer) for part in drawn.template.rules.part
+    )
+    if not chain.steps and not carries:
         return None
     units, own = drawn.template.units, drawn.template.about.units
     others = [[other.name, format_tree(other.expr)] for other in chain.alternatives]
@@ -361,4 +379,5 @@ def chain_as_json(drawn: Variant) -> dict[str, Any] | None:
         },
         "steps": [[step.name, format_tree(step.expr), step.unit] for step in chain.steps],
         **({"alternatives": others} if others else {}),
+        **(_write_forms(chain) if carries else {}),
     }

@@ -130,13 +130,20 @@ HEADS: dict[str, Node] = {
     "zeta": Word("ζ"),
     "beta": Word("B"),
     "lambertw": Word("W"),
+    "totient": Word("φ"),
+    "mobius": Word("μ"),
+    "digamma": Word("ψ"),
     "normal_cdf": Word("Φ"),
     "normal_quantile": Scripts(
         Word("Φ"), None, MathRow((OperatorSign("neg"), Digits("1")), NEGATIVE)
     ),
 }
 """Functions that are printed under another name than they are typed."""
-_BESSEL = {"besselj": "J", "bessely": "Y", "besseli": "I", "besselk": "K"}
+_WITH_ORDER = {
+    "besselj": "J", "bessely": "Y", "besseli": "I", "besselk": "K", "legendre": "P",
+    "chebyshevt": "T", "chebyshevu": "U", "hermite": "H", "laguerre": "L",
+}  # fmt: skip
+"""Functions whose order is printed as an index, by their letters."""
 _DISTRIBUTIONS = {"t": "t", "chi2": "χ", "f": "F"}
 """Distributions with degrees of freedom, by the letters that they are called."""
 
@@ -658,7 +665,7 @@ _RULES: dict[str, LayoutRule] = {
         row.name: _make_function_rule(replace(row, name=row.signs[0], most=MANY))
         for row in operators_with_syntax(OperatorSyntax.LIST)
     },
-    **{name: _make_order_rule(letter) for name, letter in _BESSEL.items()},
+    **{name: _make_order_rule(letter) for name, letter in _WITH_ORDER.items()},
     **{
         name: rule
         for called, letter in _DISTRIBUTIONS.items()

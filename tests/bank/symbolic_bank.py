@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Mapping
 from pathlib import Path
 
 BANK = """
@@ -202,3 +204,37 @@ def write_question(folder: Path, name: str) -> None:
         "traps": "\n".join(f"- {trap}: Look at {trap} again." for trap in TRAPS[name].split()),
     }
     (home / "en.md").write_text(PROSE.format(title=name, stem=stem.strip(), **listed))
+
+
+def write_questions(folder: Path, solvers: Mapping[str, tuple[str, str, list[str]]]) -> Path:
+    """Write a bank of questions: of each the model, its draws and what parts ask."""
+    (folder / "templates").mkdir()
+    (folder / "solvers").mkdir()
+    (folder / "templates" / "bank.toml").write_text(BANK)
+    for name, written in solvers.items():
+        write_parts(folder, name, *written)
+    return folder
+
+
+def write_parts(folder: Path, name: str, model: str, draws: str, asked: list[str]):
+    """Write a question of which each part asks something of the model."""
+    (folder / "solvers" / f"{name}.py").write_text(HEAD + model)
+    home = folder / "templates" / "any" / name
+    home.mkdir(parents=True)
+    parts = [f"[[part]]\nanswer = {{ {answer} }}" for answer in asked]
+    draws = draws.replace("\\n", "\n")
+    (home / "template.toml").write_text(
+        f'topic = "any"\ntier = "B"\nsolver = "{name}"\nlevels = []\n[draw]\n{draws}\n'
+        + "\n".join(parts)
+    )
+    stem = (
+        "Here "
+        + ", ".join(f"{line[0]} is {{{{ {line[0]} }}}}" for line in draws.splitlines())
+        + "."
+    )
+    stem += "".join(f"\n\n## {label}\nFind it." for label, _ in zip("abcdef", asked, strict=False))
+    traps = "\n".join(f"- {trap}: Look again." for trap in re.findall(r'"(\w+)": Step', model))
+    steps = "\n".join(
+        f"- {of}: By the rules." for of in re.findall(r'of = "(\w+)"', "\n".join(asked))
+    )
+    (home / "en.md").write_text(PROSE.format(title=name, stem=stem, steps=steps, traps=traps))

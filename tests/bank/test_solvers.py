@@ -9,6 +9,7 @@ from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
 
 import pytest
+from flint import fmpq
 
 from quizgen.bank import solvers
 from quizgen.bank.bank import Bank, builtin_bank
@@ -166,3 +167,29 @@ def test_every_chain_comes_back_as_its_model_has_it():
 def test_all_solvers_of_the_bank_can_be_kept():
     for file in (builtin_bank().root / "solvers").rglob("*.py"):
         assert _is_pure(file.read_bytes()), file
+
+
+def test_functions_of_whole_numbers_wait_for_the_drawn_ones(folder):
+    (folder / "numbers.py").write_text('''"""Words in front."""
+from __future__ import annotations
+
+import sympy
+from sympy import evaluate, gcd, isprime, lcm, symbols
+
+from quizgen.maths.model import Model, Step
+
+a, b, x, g, m, p, n = symbols("a b x g m p n")
+with evaluate(False):
+    MODEL = Model(
+        given={a: "", b: ""},
+        free=("x",),
+        steps=(
+            Step(g, gcd(a, b)), Step(m, lcm(a, b)), Step(p, isprime(a)), Step(n, sympy.nextprime(b)),
+            Step("h", gcd(x**2 - 1, x**2 - x)),
+        ),
+    )
+''')
+    chain, _ = load_chain(folder, "numbers")
+    solved = chain.solve({"a": fmpq(12), "b": fmpq(18)})
+    assert [solved[name] for name in "gmpn"] == [6, 36, 0, 19]
+    assert format_tree(chain.bind_form(chain.form_by_name["h"].expr, solved)) == "x - 1"

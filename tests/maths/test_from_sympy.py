@@ -166,7 +166,8 @@ def test_conditions():
     "bad",
     [
         sp.Function("g")(x),
-        sp.polylog(2, x),
+        sp.stieltjes(x),
+        sp.euler(p, x),
         sp.Integral(x, x),
         sp.Sum(x, (x, 0, sp.oo)),
         sp.Derivative(x**2, x, evaluate=False),
@@ -175,7 +176,7 @@ def test_conditions():
         sp.oo,
         sp.nan,
         sp.S.true,
-        sp.EulerGamma,
+        sp.TribonacciConstant,
         sp.Piecewise((1, x < 0)),
         sp.Symbol("A", commutative=False) * sp.Dummy() * sp.I,
         "x",

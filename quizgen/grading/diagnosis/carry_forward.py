@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from fractions import Fraction
 
 import msgspec
 from flint import arb, fmpq
 
-from quizgen.core.errors import MathError
+from quizgen.core.errors import FormulaError, MathError
 from quizgen.grading.diagnosis.slip_search import slip_search_for
+from quizgen.grading.judge import judge_answer
 from quizgen.grading.options import GradingOptions, QuestionContext
 from quizgen.grading.reading.numbers import ReadNumber
 from quizgen.grading.rounding import round_ball_half_away
-from quizgen.grading.spec import NumericSpec, matches_target
-from quizgen.grading.verdict import HALF, Verdict, partial, wrong
+from quizgen.grading.spec import AnySpec, NumericSpec, matches_target
+from quizgen.grading.verdict import CORRECT, HALF, Verdict, partial, wrong
 from quizgen.maths.chain import Chain, ChainStep
 from quizgen.maths.numbers import to_fraction
-from quizgen.maths.tree import Num, operators_in
+from quizgen.maths.tree import Expr, Num, names_in, operators_in
 from quizgen.maths.units import unit_factor
 from quizgen.maths.values import Value, Values
 
@@ -116,7 +118,83 @@ def recompute_from_earlier(context: QuestionContext, target: str) -> list[Value]
         result = _recompute(way, own, solved, target)
         if result is not None and result != 0 and not are_nearly_equal(result, solved[target]):
             found.append(result)
-    return found
+    return found or _recompute_from_forms(context, own, target)
+
+
+def _recompute_from_forms(context: QuestionContext, own: Values, target: str) -> list[Value]:
+    """Return a quantity in base units as it follows from own forms; empty if it follows none."""
+    wrong, _ = _follow_own_forms(context, own)
+    chain, solved = context.chain, context.solved_values
+    if target in own or not wrong.keys() - own.keys() & chain.required_steps(target):
+        return []
+    try:
+        steps = [ChainStep(name, expr) for name, expr in wrong.items()]
+        result = chain.solve_with_steps(steps, solved)[target]
+        same = result == 0 or are_nearly_equal(result, solved[target])
+    except (MathError, KeyError, TypeError):
+        return []
+    return [] if same else [result]
+
+
+def _follow_own_forms(
+    context: QuestionContext, own: Values
+) -> tuple[dict[str, Expr], dict[str, Expr]]:
+    """Return the steps and the forms that are others with own values and own forms in place."""
+    chain, changed = context.chain, dict(context.forms)
+    key = {step.name: step.expr for step in chain.forms}
+
+    def follow(step: ChainStep) -> Expr | None:
+        """Return what a step becomes; None if it uses nothing that changed, or cannot be had."""
+        if step.recipe is None or not {use.of for use in step.recipe.uses} & changed.keys():
+            return None
+        with suppress(MathError):
+            return step.recipe.follow(key | changed)
+        return None
+
+    for form in chain.forms:
+        found = None if form.name in changed else follow(form)
+        if found is not None:
+            changed[form.name] = found
+    wrong: dict[str, Expr] = {n: to_constant(v) for n, v in own.items() if n in chain.by_name}
+    for step in chain.steps:
+        found = None if step.name in wrong else follow(step)
+        if found is not None:
+            wrong[step.name] = found
+    return wrong, changed
+
+
+def judge_carried_form(
+    spec: AnySpec, typed: str, options: GradingOptions, context: QuestionContext
+) -> Verdict | None:
+    """Return full marks for a form that follows rightly from own earlier work, else None."""
+    names, chain, solved = spec.quantities(), context.chain, context.solved_values
+    if len(names) != 1 or names[0] not in chain.form_by_name:
+        return None
+    own = {
+        name: value for name, value in context.earlier.items()
+        if name in solved and not are_nearly_equal(value, solved[name])
+    }  # fmt: skip
+    wrong, forms = _follow_own_forms(context, own)
+    right = chain.form_by_name[names[0]].expr
+    form = forms.get(names[0], right)
+    if names[0] in context.forms or any(value == 0 for value in own.values()):
+        return None
+    try:
+        values = chain.solve_with_steps([ChainStep(n, e) for n, e in wrong.items()], solved)
+        bound = chain.bind_form(form, values, wrong)
+        carried = None if _says_less(bound, right, chain) else spec.replace_key(bound)
+        verdict = carried and judge_answer(carried, typed, options)
+    except (MathError, FormulaError, ValueError, KeyError, TypeError):
+        return None
+    if not verdict or verdict.verdict != CORRECT:
+        return None
+    return partial(Fraction(1), verdict.read_as, CARRIED)
+
+
+def _says_less(form: Expr, key: Expr, chain: Chain) -> bool:
+    """Return whether a form is a mere number where the key is a formula: nothing was to be done."""
+    free = {*chain.free}
+    return bool(names_in(key) & free) and not names_in(form) & free
 
 
 def _recompute(way: Chain, own: Values, solved: Values, target: str) -> Value | None:
@@ -137,7 +215,7 @@ def are_nearly_equal(a: Value, b: Value) -> bool:
     return bool(abs(a - b) <= fmpq(1, 10**9) * abs(b))
 
 
-def _to_constant(value: Value) -> Num:
+def to_constant(value: Value) -> Num:
     """Return a value as a number in a formula; a ball becomes its midpoint."""
     exact = value.mid().fmpq() if isinstance(value, arb) else value
     return Num(to_fraction(exact))
@@ -183,7 +261,7 @@ def _is_result_of_rounding(
     for name in upstream:
         size = unit_factor(chain.by_name[name].unit)
         rounded = round_ball_half_away(context.solved_values[name] / size, places) * size
-        steps.append(ChainStep(name, _to_constant(rounded)))
+        steps.append(ChainStep(name, to_constant(rounded)))
     try:
         result = chain.solve_with_steps(steps, context.solved_values)[target]
     except MathError:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from functools import cache
 
-from quizgen.maths.operators import OperatorSyntax, operators_with_syntax
+from quizgen.maths.operators import FURTHER, OperatorSyntax, operators_with_syntax
 
 FUNCTIONS = {
     row.name: (row.least, row.most) for row in operators_with_syntax(OperatorSyntax.FUNCTION)
@@ -68,7 +68,10 @@ GREEK = {
 def is_plain_name(name: str) -> bool:
     """Return whether a name can stand in a formula without back quotes."""
     # gamma and beta are letters of Greek first: functions only in front of a bracket.
-    reserved = name in (CONSTANTS.keys() | KEYWORDS | FUNCTIONS.keys()) - set(GREEK.values())
+    reserved = name in (CONSTANTS.keys() | KEYWORDS | FUNCTIONS.keys()) - {
+        *GREEK.values(),
+        *FURTHER,
+    }
     return not reserved and NAME.fullmatch(name) is not None
 
 
