@@ -22,8 +22,8 @@ LARGEST = 1_000_000
 """Bytes of the largest thing that is kept."""
 OLD = 90 * 86400.0
 """Seconds after which a thing is swept away: it may be what nothing leads to any more."""
-PAUSE = 86400.0
-"""Seconds after which a folder is searched for old things again."""
+SWEPT, PAUSE = ".{}-swept", 86400.0
+"""File whose time says when the folder beside it was last searched, and seconds until again."""
 _SUM = 64
 
 
@@ -124,10 +124,9 @@ def _is_own(folder: os.stat_result) -> bool:
 def remove_stale(folder: Path) -> None:
     """Delete the files of a folder that are older than ``OLD``; at most once in ``PAUSE``.
 
-    To look through a folder that many versions have written to takes seconds, so the time of a file
-    beside it says when that was done last.
+    To look through a folder that many versions have written to takes seconds.
     """
-    swept, now = folder.with_name(f".{folder.name}-swept"), time.time()
+    swept, now = folder.with_name(SWEPT.format(folder.name)), time.time()
     if swept.exists() and 0 <= now - swept.stat().st_mtime < PAUSE:
         return
     swept.touch()
