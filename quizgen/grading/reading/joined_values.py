@@ -54,7 +54,7 @@ _PAIR = 2
 
 def repeat_value(text: str, count: int) -> Iterator[str]:
     """Yield ``50; 50`` for ``both 50`` and ``50 each``."""
-    alike = _EACH.fullmatch(text.strip(" ."))
+    alike = _EACH.fullmatch(text.rpartition("=")[2].strip(" ."))
     if alike and count >= _PAIR:
         yield "; ".join([alike[1] or alike[2]] * count)
 
