@@ -283,7 +283,13 @@ def _agree(said: Sequence[str], strangers: Sequence[str], meant: Clauses) -> boo
 
 
 def are_opposed(said: Collection[str], wanted: Collection[str]) -> bool:
-    """Return whether an answer has one of two opposite words, and a wording only the other one."""
+    """Return whether an answer has one of two opposite words, and a wording only the other one.
+
+    So are the two ends of a scale.
+    """
+    ends, own = ({end for word in words for end in _find_ends(word)} for words in (wanted, said))
+    if any((name, -sign) in ends and (name, sign) not in ends for name, sign in own):
+        return True
     for row in _load_opposites():
         told, asked = row & {*said}, row & {*wanted}
         if told and asked and not told & asked:
@@ -316,8 +322,6 @@ def _point_one_way(
     """
     ends = {end for word in wanted for end in _find_ends(word)}
     own = {end for word in spoken for end in _find_ends(word)}
-    if any((name, -sign) in ends and (name, sign) not in ends for name, sign in own):
-        return False
     free = {*ends, *({MORE} if {one for one in own & ends if one[0] != MORE[0]} else ())}
     strange = {part for one in strangers for sense in list_senses(one) for part in sense}
     return all(

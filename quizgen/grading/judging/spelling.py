@@ -122,13 +122,14 @@ LEAST_STEM = 4
 def sounds_alike(word: str, english: str) -> bool:
     """Return whether a word in another script is an English one by its sound: ``ব্যারেল``, barrel."""
     sounds = _list_sounds()
-    heard = _DOUBLE.sub(r"\1", "".join(sounds.get(letter, "") for letter in word))
+    letters = re.findall("|".join(sounds), word) if sounds else []
+    heard = _DOUBLE.sub(r"\1", "".join(map(sounds.__getitem__, letters)))
     return len(heard) >= LEAST_SOUNDS and heard == _spell_sounds(english)
 
 
 @cache_words
 def _list_sounds() -> dict[str, str]:
-    """Return the letters of other scripts with the consonants that they stand for."""
+    """Return the letters of other scripts, longest first, with the consonants they stand for."""
     return dict(row.split("=") for row in list_words("spelling.sounds"))
 
 
