@@ -21,7 +21,7 @@ from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.equalities import EqualitySide, read_typed_sides
 from quizgen.grading.reading.numbers import ReadNumber
 from quizgen.grading.reading.quantities import TypedQuantity
-from quizgen.grading.reading.units import TypedUnit, listed_unit
+from quizgen.grading.reading.units import TypedUnit, listed_unit, part_joined_units
 from quizgen.grading.rounding import format_key
 from quizgen.grading.spec import COUNTED, ScalarSpec, is_large_count
 from quizgen.grading.verdict import HALF, Verdict, attach_values, partial, wrong
@@ -120,7 +120,7 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
             If it cannot be read.
         """
         try:
-            sides = read_typed_sides(typed, options.decimal)
+            sides = read_typed_sides(part_joined_units(typed, self.unit), options.decimal)
         except FormulaReadError as error:
             if error.expected and error.found.lower() == self.unit.lower():
                 error.expected = (self.unit,)  # ev is eV where that is asked, not EV

@@ -29,11 +29,14 @@ from quizgen.kinds.forms import (
     TypedEntry,
     check_entry,
     entry_matches,
+    find_factor,
+    find_unit,
     format_entry,
     parse_entry,
     read_any_entry,
     require_form,
     round_entry,
+    scale_entry,
     show_entry,
     typeset_key,
     write_constant,
@@ -77,10 +80,10 @@ class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
             for text in components:
                 check_entry(text)
 
-    def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
-        """Judge a typed vector."""
+    def judge_entries(self, typed: str, scale: Value, options: GradingOptions, /) -> Verdict:
+        """Judge a typed vector; errors as ``judge``."""
         numbers = self._read(typed, options)
-        values = [number.value for number in numbers]
+        values = [scale_entry(number.value, scale) for number in numbers]
         read_as = f"({'; '.join(number.read_as for number in numbers)})"
         if self._is_right(values, self.components):
             return correct(read_as)
@@ -105,12 +108,16 @@ class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
 
     def read_form(self, typed: str, options: GradingOptions, /) -> Expr:
         """Return a typed vector; errors as ``judge``."""
-        values = [number.value for number in self._read(typed, options)]
+        plain, unit = self.split_unit(typed)
+        factor = self.base_factor(unit)
+        values = [scale_entry(number.value, factor) for number in self._read(plain, options)]
         return Call("vector", tuple(map(write_constant, values)))
 
     def replace_key(self, form: Expr, /) -> ColumnSpec:
         """Return the specification with another vector as its key, and without mistakes."""
-        return msgspec.structs.replace(self, components=_write_components(form), traps={})
+        return msgspec.structs.replace(
+            self, components=_write_components(form, self.base_factor(None)), traps={}
+        )
 
     def _is_right(self, values: list[Value | ComplexValue], components: list[EntryText]) -> bool:
         """Return whether a vector is the key, or a multiple of it if ``up_to`` is "scale"."""
@@ -127,7 +134,7 @@ class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as it is printed, and as it can be typed back."""
-        return f"({'; '.join(map(show_entry, self.rounded_components()))})"
+        return self.add_unit(f"({'; '.join(map(show_entry, self.rounded_components()))})")
 
     def rounded_components(self) -> list[EntryText]:
         """Return the components as far as they are asked."""
@@ -163,27 +170,36 @@ def ask(part: PartContext) -> AskedPart[ColumnSpec]:
     traps = {name: _list_components(part, f) for name, f in part.misconception_forms().items()}
     notes = part.misconception_notes(traps) if traps else {}
     components = _list_components(part, part.answer_form())
-    spec = make_spec(ColumnSpec, part, components=components, traps=traps, notes=notes)
+    spec = make_spec(
+        ColumnSpec,
+        part,
+        **{"components": components, "traps": traps, "notes": notes} | find_unit(part),
+    )
     return AskedPart(spec, InputControl("line"), mistakes=misconception_specs(spec, "components"))
 
 
 def _list_components(part: PartContext, form: Expr) -> list[EntryText]:
     """Return the components of a form as text; a matrix of one row is a vector, too."""
-    return _write_components(require_form(part, form, "vector", "matrix"))
+    return _write_components(require_form(part, form, "vector", "matrix"), find_factor(part))
 
 
-def _write_components(form: Expr) -> list[EntryText]:
+def _write_components(form: Expr, factor: Value) -> list[EntryText]:
     """Return the components of a vector, or of a matrix of one row, as a key has them."""
     args = form.args if isinstance(form, Call) else ()
     if isinstance(form, Call) and form.op == "matrix":
         (row,) = args
         args = row.args if isinstance(row, Call) else ()
-    return [format_entry(arg) for arg in args]
+    return [format_entry(arg, factor) for arg in args]
 
 
 def input_hints(spec: ColumnSpec, lang: str) -> tuple[TextOrInlines, ...]:
     """Return how a vector is typed, and whether any multiple counts."""
-    return (*_HINT(spec, lang), *_hint_multiples(spec, lang), *spec.hint_rounding(lang))
+    return (
+        *_HINT(spec, lang),
+        *spec.hint_unit(lang),
+        *_hint_multiples(spec, lang),
+        *spec.hint_rounding(lang),
+    )
 
 
 def paper_hints(spec: ColumnSpec, lang: str) -> tuple[str, ...]:
@@ -198,7 +214,8 @@ def _hint_multiples(spec: ColumnSpec, lang: str) -> tuple[str, ...]:
 
 def explain_key(spec: ColumnSpec, _lang: str) -> TextOrInlines:
     """The vector as it is written by hand."""
-    return typeset_key(build_vector(spec.rounded_components()), spec.show())
+    key = typeset_key(build_vector(spec.rounded_components()), spec.show())
+    return spec.typeset_with_unit(key)
 
 
 KIND = AnswerKind(AuthoredVector, ColumnSpec, ask, input_hints, explain_key, paper_hints)
