@@ -149,11 +149,11 @@ class ComplexSpec(EntriesSpec, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as it is printed, and as it can be typed back."""
-        number = self._show_number()
+        number = self.show_plain()
         bare = not self.unit or (self.form == "polar" and self.tolerance)
         return self.add_unit(number if bare else f"({number})")
 
-    def _show_number(self) -> str:
+    def show_plain(self) -> str:
         """Return the number of the key alone."""
         if self.form == "polar" and self.tolerance:
             return "{}\N{ANGLE}{}°".format(*map(pretty.format_number, self.rounded_polar()))
@@ -303,9 +303,9 @@ def _typeset_number(spec: ComplexSpec) -> TextOrInlines:
 
         size, angle = spec.rounded_polar()
         row = MathRow((quantity(size, ""), Ident("\N{ANGLE}"), quantity(angle, "deg")))
-        return (TypesetMaths(row, spec.show()),)
+        return (TypesetMaths(row, spec.show_plain()),)
     if spec.tolerance:
-        return typeset_key(parse_formula(spec.rounded_sum(), symbols=("i",)), spec.show())
+        return typeset_key(parse_formula(spec.rounded_sum(), symbols=("i",)), spec.show_plain())
     return typeset_key(build_complex(spec.parts, spec.form))
 
 

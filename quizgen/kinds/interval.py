@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from typing import ClassVar
 
@@ -16,7 +16,7 @@ from quizgen.grading.reading.literals import with_decimal_points
 from quizgen.grading.reading.normalise import normalise_typed
 from quizgen.grading.reading.numbers import read_number
 from quizgen.grading.reading.source_map import SourceText
-from quizgen.grading.rounding import format_exact_or_figures
+from quizgen.grading.rounding import format_exact_or_figures, format_key
 from quizgen.grading.spec import NumericSpec
 from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
 from quizgen.kinds.asking import (
@@ -36,6 +36,7 @@ from quizgen.kinds.contract import (
 from quizgen.kinds.forms import format_plain, require_form
 from quizgen.locale import translate
 from quizgen.maths.notation import FormulaReadError, pretty
+from quizgen.maths.numbers import is_short_decimal
 from quizgen.maths.tree import Call, Expr, Num
 from quizgen.maths.values import Value
 
@@ -127,8 +128,16 @@ class IntervalSpec(NumericSpec, kw_only=True, frozen=True):
         return msgspec.structs.replace(self, value=_write_union(form), traps={})
 
     def show(self) -> str:
-        """Return the key as printed and as it can be typed back."""
-        return read_union(self.value, "point")[1]
+        """Return the key as printed and as it can be typed back, as far as is asked."""
+        pieces, written = read_union(self.value, "point")
+        return " ∪ ".join(_echo(piece, self._show_bound) for piece in pieces) or written
+
+    def _show_bound(self, value: Value) -> str:
+        """Return a bound with the decimals or figures asked; one that needs fewer as it is."""
+        asked = self.decimals is not None or self.sigfigs is not None
+        if asked and not is_short_decimal(value):
+            return format_key(self, value)
+        return _show_figures(value)
 
 
 class IntervalValue(msgspec.Struct, frozen=True):
@@ -268,10 +277,15 @@ def _parse_bound(source: SourceText, decimal: str, side: str) -> Value | None:
     return read_number(source, decimal).main.value
 
 
-def _echo(interval: IntervalValue) -> str:
+def _show_figures(value: Value) -> str:
+    """Return a bound as it was read."""
+    return format_exact_or_figures(value, 12)
+
+
+def _echo(interval: IntervalValue, show: Callable[[Value], str] = _show_figures) -> str:
     """Return an interval with outward brackets for bounds that do not belong to it."""
-    low = "-∞" if interval.low is None else format_exact_or_figures(interval.low, 12)
-    high = "∞" if interval.high is None else format_exact_or_figures(interval.high, 12)
+    low = "-∞" if interval.low is None else show(interval.low)
+    high = "∞" if interval.high is None else show(interval.high)
     low, high = pretty.format_number(low), pretty.format_number(high)
     return (
         f"{'[' if interval.closed_low else ']'}{low}; {high}{']' if interval.closed_high else '['}"

@@ -111,8 +111,12 @@ class MatrixSpec(EntriesSpec, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as it is printed, and as it can be typed back."""
+        return self.add_unit(self.show_plain())
+
+    def show_plain(self) -> str:
+        """Return the key without its unit."""
         rows = self.rounded_entries()
-        return self.add_unit(f"[{'; '.join(', '.join(map(show_entry, row)) for row in rows)}]")
+        return f"[{'; '.join(', '.join(map(show_entry, row)) for row in rows)}]"
 
     def rounded_entries(self) -> Entries:
         """Return the entries as far as they are asked."""
@@ -207,7 +211,7 @@ def _write_entries(form: Expr, factor: Value) -> Entries:
 
 def explain_key(spec: MatrixSpec, _lang: str) -> TextOrInlines:
     """The matrix as it is written by hand."""
-    key = typeset_key(build_matrix(spec.rounded_entries()), spec.show())
+    key = typeset_key(build_matrix(spec.rounded_entries()), spec.show_plain())
     return spec.typeset_with_unit(key)
 
 

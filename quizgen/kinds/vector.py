@@ -134,7 +134,11 @@ class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as it is printed, and as it can be typed back."""
-        return self.add_unit(f"({'; '.join(map(show_entry, self.rounded_components()))})")
+        return self.add_unit(self.show_plain())
+
+    def show_plain(self) -> str:
+        """Return the key without its unit."""
+        return f"({'; '.join(map(show_entry, self.rounded_components()))})"
 
     def rounded_components(self) -> list[EntryText]:
         """Return the components as far as they are asked."""
@@ -214,7 +218,7 @@ def _hint_multiples(spec: ColumnSpec, lang: str) -> tuple[str, ...]:
 
 def explain_key(spec: ColumnSpec, _lang: str) -> TextOrInlines:
     """The vector as it is written by hand."""
-    key = typeset_key(build_vector(spec.rounded_components()), spec.show())
+    key = typeset_key(build_vector(spec.rounded_components()), spec.show_plain())
     return spec.typeset_with_unit(key)
 
 

@@ -224,11 +224,16 @@ def write_parts(folder: Path, name: str, model: str, draws: str, asked: list[str
     parts = [f"[[part]]\nanswer = {{ {answer} }}" for answer in asked]
     draws = draws.replace("\\n", "\n")
     (home / "template.toml").write_text(
-        f'topic = "any"\ntier = "B"\nsolver = "{name}"\nlevels = []\n[draw]\n{draws}\n' + "\n".join(parts)
+        f'topic = "any"\ntier = "B"\nsolver = "{name}"\nlevels = []\n[draw]\n{draws}\n'
+        + "\n".join(parts)
     )
-    stem = "Here " + ", ".join(f"{line[0]} is {{{{ {line[0]} }}}}" for line in draws.splitlines()) + "."
+    stem = (
+        "Here "
+        + ", ".join(f"{line[0]} is {{{{ {line[0]} }}}}" for line in draws.splitlines())
+        + "."
+    )
     stem += "".join(f"\n\n## {label}\nFind it." for label, _ in zip("abcdef", asked, strict=False))
     traps = "\n".join(f"- {trap}: Look again." for trap in re.findall(r'"(\w+)": Step', model))
-    names = re.findall(r"Step\(\"?(\w+)", model.split("traps=")[0])
+    names = re.findall(r"Step\(\"?(\w+)", model.split("traps=", maxsplit=1)[0])
     steps = "\n".join(f"- {name}: By the rules." for name in dict.fromkeys(names))
     (home / "en.md").write_text(PROSE.format(title=name, stem=stem, steps=steps, traps=traps))

@@ -17,7 +17,9 @@ from quizgen.maths.model import Model, Step
 
 def test_an_infinite_sum_is_added_up_where_it_converges():
     a, b, k, s = sympy.symbols("a b k s", positive=True)
-    chain = Model(given={a: "", b: ""}, steps=(Step(s, sympy.Sum((a / b) ** k, (k, 0, sympy.oo))),)).chain()
+    chain = Model(
+        given={a: "", b: ""}, steps=(Step(s, sympy.Sum((a / b) ** k, (k, 0, sympy.oo))),)
+    ).chain()
     assert chain.solve({"a": fmpq(1), "b": fmpq(3)})["s"] == fmpq(3, 2)
     with pytest.raises(MathError):
         chain.solve({"a": fmpq(3), "b": fmpq(1)})
