@@ -31,6 +31,7 @@ from quizgen.kinds.forms import (
     parse_entry,
     round_number,
     scale_entry,
+    separate_unit,
     split_sides,
     typeset_key,
     write_constant,
@@ -188,14 +189,13 @@ _SIZE_AND_ANGLE = re.compile(
     r"\(?\s*(?P<size>[^;∠()]+?)\s*(?:∠|;|/_)\s*(?P<angle>[^;∠()]*?)\s*"
     r"(?P<unit>°|deg(?:rees?)?\b|\^?\\circ|rad\b|(?<=π)|(?<=pi))\s*\)?"
 )
-_UNIT_FIRST = re.compile(r"(?<![^\W\d_])([ij]) ?(?=\d)")
 
 
 def _spell_out(typed: str) -> str:
     """Return ``50∠53°`` and ``(50; 53°)`` as a formula, and ``j40`` as a product."""
     polar = _SIZE_AND_ANGLE.fullmatch(" ".join(typed.split()))
     if polar is None:
-        return _UNIT_FIRST.sub(r"\1*", typed)
+        return separate_unit(typed)
     unit = "" if polar["unit"] in {"rad", ""} else "°"
     return f"({polar['size']})*exp(i*({polar['angle']}{unit}))"
 

@@ -157,15 +157,22 @@ class EntriesSpec(WordSpec, kw_only=True, frozen=True):
         """
         if not self.unit:
             return typed, None
-        powers = part_joined_units(typed, self.unit).replace("²", "^2").replace("³", "^3")
+        powers = (
+            part_joined_units(typed.replace(r"\Omega", " Ω"), self.unit)
+            .replace("²", "^2")
+            .replace("³", "^3")
+        )
         spaced = _UNIT_AFTER.sub(r"\1 ", drop_name(powers))
-        words = [one for word in _UNIT_WORD.findall(spaced) for one in (word, *word.split())]
-        for word in dict.fromkeys(words):
-            with suppress(FormulaError):
-                if word not in _NO_UNITS:
-                    unit = read_unit(word)
-                    inside = rf"(?<![^\W\d_]){re.escape(word)}(?![^\W_])"
-                    return re.sub(inside, " ", spaced).strip(), unit
+        found = _UNIT_WORD.findall(spaced)
+        words = dict.fromkeys(one for word in found for one in _list_ends(word))
+        units = {word: unit for word in words if (unit := _find_unit(word))}
+        wanted = listed_unit(self.unit).dimension
+        ends = found and spaced.rstrip(" )]}$").endswith(found[-1])
+        last = _list_ends(found[-1]) if ends else []
+        for word in [*(w for w in units if units[w].dimension == wanted), *last]:
+            if word in units:
+                inside = rf"(?<![^\W\d_]){re.escape(word)}(?![^\W_])"
+                return re.sub(inside, " ", spaced).strip(), units[word]
         return typed, None
 
     def base_factor(self, unit: TypedUnit | None) -> Value:
@@ -215,6 +222,19 @@ class EntriesSpec(WordSpec, kw_only=True, frozen=True):
         """Return the same in few words."""
         rule = self.tolerance
         return precision_on_paper(rule, lang) if rule else ()
+
+
+def _list_ends(words: str) -> list[str]:
+    """Return words, the same without the first, and so on: of ``k N m`` only two are the unit."""
+    parts = words.split(" ")
+    return [" ".join(parts[first:]) for first in range(len(parts))]
+
+
+def _find_unit(word: str) -> TypedUnit | None:
+    """Return the unit that a word is; None for a function, an imaginary unit or an angle."""
+    with suppress(FormulaError):
+        return None if word in _NO_UNITS else read_unit(word)
+    return None
 
 
 def find_unit(part: PartContext) -> dict[str, Any]:
@@ -312,10 +332,18 @@ def read_any_entry(piece: str | SourceText, decimal: str, *, as_complex: bool) -
     if not as_complex:
         number = read_entry(piece, decimal)
         return TypedEntry(number.value, number.read_as)
-    text = piece if isinstance(piece, str) else piece.text
+    text = separate_unit(piece if isinstance(piece, str) else piece.text)
     tree = read_formula(text, IMAGINARY, decimal).tree
     value = evaluate_complex(tree, frozenset(IMAGINARY))
     return TypedEntry(value, pretty.format_formula(format_tree(tree)))
+
+
+_UNIT_FIRST = re.compile(r"(?<![^\W\d_])([ij]) ?(?=\d)")
+
+
+def separate_unit(typed: str) -> str:
+    """Return ``j40``, as engineers write it, as a product."""
+    return _UNIT_FIRST.sub(r"\1*", typed)
 
 
 def write_constant(value: Value | ComplexValue) -> Expr:

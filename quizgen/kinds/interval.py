@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from fractions import Fraction
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import msgspec
 
@@ -45,6 +45,7 @@ class AuthoredInterval(AuthoredMeasured, kw_only=True, tag="interval", frozen=Tr
     """From one number to another, or several such: as written here, or a set of the solver."""
 
     of: str = ""
+    brackets: Literal["", "any"] = ""
     value: str = ""
     traps: dict[str, str] = msgspec.field(default_factory=dict)
 
@@ -61,6 +62,7 @@ class IntervalSpec(NumericSpec, kw_only=True, frozen=True):
     written_as: ClassVar[AnswerForm] = "formula"
 
     value: str
+    brackets: Literal["", "any"] = ""
 
     def validate(self) -> None:
         """Check tolerance and the key's own notation; errors as ``WordSpec.validate``."""
@@ -78,7 +80,10 @@ class IntervalSpec(NumericSpec, kw_only=True, frozen=True):
         FormulaReadError
             If it cannot be read.
         """
-        pieces, read_as = read_union(typed.strip(" $"), options.decimal)
+        typed = typed.strip(" $")
+        if self.brackets:
+            typed = _RANGE.sub(r"[\1; \2]", typed) if _RANGE.fullmatch(typed) else typed
+        pieces, read_as = read_union(typed, options.decimal)
         for name, text in self.traps.items():
             if self._is_same_union(pieces, read_union(str(text), "point")[0]):
                 return wrong(read_as, f"trap:{name}")
@@ -96,7 +101,10 @@ class IntervalSpec(NumericSpec, kw_only=True, frozen=True):
         """Return whether a union has the key's pieces, with their bounds and brackets."""
         return len(pieces) == len(keys) and all(
             self._has_same_bounds(piece, key)
-            and (piece.closed_low, piece.closed_high) == (key.closed_low, key.closed_high)
+            and (
+                bool(self.brackets)
+                or (piece.closed_low, piece.closed_high) == (key.closed_low, key.closed_high)
+            )
             for piece, key in zip(pieces, keys, strict=True)
         )
 
@@ -116,6 +124,8 @@ class IntervalSpec(NumericSpec, kw_only=True, frozen=True):
         if not (low and high):
             note = "bound-left" if high else "bound-right" if low else "bounds"
             return wrong(read_as, note)
+        if self.brackets:
+            return correct(read_as)
         left = interval.closed_low == key.closed_low
         right = interval.closed_high == key.closed_high
         if left and right:
@@ -149,6 +159,8 @@ class IntervalValue(msgspec.Struct, frozen=True):
     closed_high: bool
 
 
+_RANGE = re.compile(r"([-+−]?\d+(?:[.,]\d+)?) ?[-–—] ?(\d+(?:[.,]\d+)?)")
+"""An interval without brackets, where nobody asks whether its bounds belong to it."""
 _INFINITE = re.compile(r"([-+]?) ?(?:∞|inf(?:inity)?|infty|oo|unendlich|অসীম)", re.IGNORECASE)
 _NAMED = re.compile(rf"{NAME} ?(?:∈|in(?= )) ?|{NAME} ?[=:] ?(?=[\[\](])")
 _WRAPPED = re.compile(r"[(\[{] ?[\[\](][^\[\](){}]+[\])\[] ?[)\]}]|\{[^{}]*\}")

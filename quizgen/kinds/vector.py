@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from fractions import Fraction
 from typing import TYPE_CHECKING, ClassVar, Literal
@@ -28,6 +29,7 @@ from quizgen.kinds.forms import (
     EntryText,
     TypedEntry,
     check_entry,
+    drop_name,
     entry_matches,
     find_factor,
     find_unit,
@@ -100,7 +102,7 @@ class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
 
     def _read(self, typed: str, options: GradingOptions) -> list[TypedEntry]:
         """Return the typed components; errors as ``judge``."""
-        plain = typed.replace("\\\\", ";").replace("&", ";")
+        plain = _write_by_axes(typed).replace("\\\\", ";").replace("&", ";")
         pieces, _ = read_list(plain, len(self.components), options.decimal)
         known = (self.components, *self.traps.values())
         as_complex = any(isinstance(entry, list) for row in known for entry in row)
@@ -143,6 +145,20 @@ class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
     def rounded_components(self) -> list[EntryText]:
         """Return the components as far as they are asked."""
         return [round_entry(text, self.tolerance) for text in self.components]
+
+
+_TERM = re.compile(r"([-+−]?) ?(\d+(?:[.,]\d+)?)? ?[*·]? ?([ijk])\b ?")
+_AXES = "ijk"
+
+
+def _write_by_axes(typed: str) -> str:
+    """Return ``2i - 3k``, a sum along the axes, as its three components."""
+    text = re.sub(r"\\(?:hat|vec|mathbf) ?\{?([ijk])\}?", r"\1", drop_name(typed)).strip()
+    terms = [match.groups("") for match in _TERM.finditer(text)]
+    if "k" not in text or _TERM.sub("", text) or len({term[2] for term in terms}) < len(terms):
+        return typed
+    parts = {axis: f"{sign.replace('+', '')}{size or 1}" for sign, size, axis in terms}
+    return "; ".join(parts.get(axis, "0") for axis in _AXES)
 
 
 def build_vector(components: list[EntryText]) -> Expr:

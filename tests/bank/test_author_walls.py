@@ -13,6 +13,8 @@ from quizgen.bank.solvers import load_chain
 from quizgen.core.errors import BankError, MathError
 from quizgen.lint.template_checks import lint_template
 from quizgen.maths.model import Model, Step
+from quizgen.paper.answer_key import make_key_question
+from quizgen.paper.paper import single_question_paper
 
 
 def test_an_infinite_sum_is_added_up_where_it_converges():
@@ -66,6 +68,10 @@ Q, m, T, c = symbols("Q m T c")
 MODEL = Model(given={Q: "J", m: "kg", T: "K"}, steps=(Step(c, Q/(m*T), "J/(kg*K)"),))
 """, 'Q = { pick = [840], unit = "J" }\\nm = { pick = [2], unit = "kg" }\\nT = { pick = [10], unit = "K" }',
             ['kind = "quantity", of = "c", unit = "J/(kg*K)", sigfigs = 2']),
+        "confidence": ("""
+m, w = symbols("m w")
+MODEL = Model(given={m: "", w: ""}, steps=(Step("C", Interval(m - w*sqrt(2), m + w*sqrt(2))),))
+""", "m = { pick = [10] }\\nw = { pick = [2] }", ['kind = "interval", of = "C", decimals = 2, brackets = "any"']),
     }  # fmt: skip
     return Bank(write_questions(tmp_path_factory.mktemp("walls") / "bank", solvers), trusted=True)
 
@@ -73,6 +79,7 @@ MODEL = Model(given={Q: "J", m: "kg", T: "K"}, steps=(Step(c, Q/(m*T), "J/(kg*K)
 @pytest.mark.parametrize(("name", "typed"), [
     ("payments", "300"), ("pair", "sum = 4 mol/L; difference = 2 mol/L"),
     ("heat", "42 J/(kg K)"), ("heat", "42 J/kgK"), ("heat", "42 J/(kg·K)"), ("heat", "0.042 kJ/(kgK)"),
+    ("confidence", "[7.17; 12.83]"), ("confidence", "(7.17, 12.83)"), ("confidence", "7.17 - 12.83"),
 ])  # fmt: skip
 def test_right_answers_are_right(bank, name, typed):
     assert quizgen.mark_part(bank.template(name), typed).verdict == "correct"
@@ -82,6 +89,13 @@ def test_right_answers_are_right(bank, name, typed):
 def test_what_is_printed_is_read_back(bank, name):
     rules = [problem.code for problem in lint_template(bank.template(name), 1).problems]
     assert not {"QG205", "QG603"} & {*rules}
+
+
+def test_bounds_are_printed_as_far_as_they_are_asked(bank):
+    (part,) = make_key_question(
+        single_question_paper(bank.template("confidence"), 1, "en").items[0]
+    ).parts
+    assert part.parse_spec().show() == "[7.17; 12.83]"
 
 
 def test_a_key_of_the_file_below_a_table_is_told(bank):

@@ -80,7 +80,10 @@ def bank(tmp_path_factory):
     ("torque", "a", "(0; 0; 1000) N·m", ("wrong", "sign")),
     ("torque", "a", "(0; 0; -1000)", ("partial", "unit-missing")),
     ("torque", "a", "(0; 0; -1000) J/s", ("wrong", "unit-clash")),
+    ("torque", "a", "-1000k N m", ("correct", "")),
+    ("torque", "a", "0i + 0j - 1000 k Nm", ("correct", "")),
     ("torque", "b", "[5, 7] kN", ("correct", "")),
+    ("entries", "a", "2, j3; 1 - j, 2 + j3", ("correct", "")),
     ("torque", "b", "[5000 N, 7000 N]", ("correct", "")),
 ])  # fmt: skip
 def test_complex_answers(bank, name, part, typed, right):

@@ -301,11 +301,14 @@ def read_unit(text: str) -> TypedUnit:
 
 
 def part_joined_units(typed: str, listed: str) -> str:
-    """Return an answer with ``Nm`` as ``N*m`` where a unit with that product is asked.
+    """Return an answer with ``Nm`` as ``N*m`` where a unit with that product, or like it, is asked.
 
-    Only the products of the unit that is asked are looked for, and none that is a unit itself.
+    Only products in the unit that is asked are looked for, and common ones of its kind; none that
+    is a unit itself.
     """
-    for product in _PRODUCTS.findall(listed):
+    wanted = listed_unit(listed).dimension
+    alike = [product for product in _COMMON if listed_unit(product).dimension == wanted]
+    for product in dict.fromkeys((*_PRODUCTS.findall(listed), *alike)):
         joined = product.replace("*", "")
         if joined not in active_units().simple:
             pattern = rf"(?<![^\W\d_])([kMGmµcd]?){joined}(?![^\W_])"
@@ -314,6 +317,7 @@ def part_joined_units(typed: str, listed: str) -> str:
     return typed
 
 
+_COMMON = ("N*m", "W*s", "V*s", "A*s", "V*A", "ohm*m", "N*s", "kg*m")
 _PRODUCTS = re.compile(r"[^\W\d_]+(?:\*[^\W\d_]+)+")
 _MU = re.compile(r"^(?:mu|micro|mikro) ?(?=[ms]$)")
 _INTO = re.compile(r"^\(?in +([^()]+)\)?$")
