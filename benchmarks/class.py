@@ -4,8 +4,9 @@ Papers and solutions of twenty questions for each student, as ``quizgen class ma
 this process, in four processes, and on a Dask cluster of two workers on this machine of which one
 is killed half way. Prints CPU seconds and megabytes, and whether all wrote the same bytes.
 With ``marks``, what marking and analysing costs instead: one table of answers, of which six of ten
-are right, one is blank, two are wrong numbers and one cannot be read. A hundred papers are drawn,
-and every hundredth student has the same, under a code of the own; nothing is typeset.
+are right, one is blank, two are wrong numbers and one cannot be read. Sentences are of each student
+alone: ideas of the mark scheme in its words, and one more word. A hundred papers are drawn, and
+every hundredth student has the same, under a code of the own; nothing is typeset.
 CPU seconds grow when others use the machine: the line ``loop`` says how fast it is now.
 """
 
@@ -39,6 +40,7 @@ from quizgen.classes.key_index import KeyIndex
 from quizgen.classes.roster import RosterStudent
 from quizgen.core.executor import InlineExecutor, open_executor
 from quizgen.kinds.grade import show_key
+from quizgen.kinds.rubric import RubricSpec
 from quizgen.paper.answer_key import AnswerKey
 from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.paper import ProgressCallback, silent
@@ -160,25 +162,36 @@ def answered(folder: ClassFolder, count: int) -> int:
     first = keys.key(drawn[0])
     names = [part.id for question in first.questions for part in question.parts]
     typed = [_typed(keys.key(one)) for one in drawn]
+    words = sorted({word for one in typed for text in one.values() if not isinstance(text, str)
+                    for said in text for word in said.split()})  # fmt: skip
     (folder.path / ANSWERS).mkdir()
     with (folder.path / ANSWERS / "all.csv").open("w", encoding="utf-8", newline="") as stream:
         rows = csv.writer(stream)
         rows.writerow(["id", *names])
         for place in range(count):
             shown = typed[place % len(drawn)]
-            row = [_answer(shown.get(name, ""), chance) for name in names]
+            row = [_answer(shown.get(name, ""), words, chance) for name in names]
             number += sum(map(bool, row))
             rows.writerow([10_000 + place, *row])
     return number
 
 
-def _typed(key: AnswerKey) -> dict[str, str]:
-    """What is right in each part."""
-    return {part.id: show_key(part.parse_spec()) for one in key.questions for part in one.parts}
+def _typed(key: AnswerKey) -> dict[str, str | list[str]]:
+    """What is right in each part; of a sentence what may be said for each of its ideas."""
+    parts = ((part.id, part.parse_spec()) for one in key.questions for part in one.parts)
+    return {
+        name: [text for one in spec.criteria.values() for text in one.accept]
+        if isinstance(spec, RubricSpec)
+        else show_key(spec)
+        for name, spec in parts
+    }
 
 
-def _answer(right: str, chance: random.Random) -> str:
+def _answer(right: str | list[str], words: list[str], chance: random.Random) -> str:
     way = chance.random()
+    if isinstance(right, list):
+        said = chance.sample(right, min(len(right), chance.randint(1, 3)))
+        right = f"{', '.join(said)} {chance.choice(words)}."
     wrong = f"{chance.uniform(0, 50):.2f}" if way < 0.93 else chance.choice(UNREAD)
     return right if way < 0.6 else "" if way < 0.7 else wrong
 

@@ -14,7 +14,7 @@ Examples
 >>> question.title
 'Perspective projection of a point'
 >>> key.solution.parts[0].answer
-'(4; 6)'
+'(4.00; 6.00)'
 >>> quizgen.grade_answer(key.specs[0], "(4; 6)").verdict
 'correct'
 >>> quizgen.grade_answer(key.specs[0], "(6; 4)").note

@@ -44,12 +44,6 @@ LAYERS = {
 }
 """Package to the packages below it that it may use. Solvers use ``maths.model`` alone."""
 
-BELONGS = {
-    "quizgen.bank.markdown": "typeset",
-    "quizgen.question.inlines": "typeset",
-}
-"""Modules that know nothing of the package they lie in: pieces of prose, and what msgspec says."""
-
 RUNNER = PACKAGE / "grading" / "program_runner.py"
 """Runs what learners write: a process of its own that nothing imports, behind its own walls."""
 MAY_IMPORT_BY_NAME = {
@@ -88,7 +82,7 @@ def imported_modules(path: Path) -> frozenset[str]:
 def imported(path: Path) -> set[str]:
     """Packages of quizgen that a file imports."""
     modules = imported_modules(path)
-    return {BELONGS.get(name, name.split(".")[1]) for name in modules if "." in name}
+    return {name.split(".")[1] for name in modules if "." in name}
 
 
 FILES = [path for path in MODULES.values() if not package_of(path).startswith("_")]

@@ -35,16 +35,15 @@ from pathlib import Path
 
 from quizgen.bank.compile_cache import CompileCache
 from quizgen.bank.markdown import (
-    Block,
     ConditionalSentence,
     LanguageFile,
-    PictureLink,
     leaves,
     parse_blocks,
     parse_inlines,
 )
 from quizgen.core import untrusted
 from quizgen.core.errors import BankError
+from quizgen.typeset.prose import Block, PictureLink
 
 NAMED_SECTIONS = frozenset(
     {

@@ -10,133 +10,39 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cache, cached_property
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any
 
 import msgspec
 
 from quizgen.core.errors import BankError, FormulaError
 from quizgen.core.positions import TEXT
 from quizgen.maths.notation import FormulaReadError, format_tree, parse_formula, pretty
-from quizgen.maths.tree import Expr
 from quizgen.typeset import lay_out
 from quizgen.typeset.from_latex import SLOT, LatexError, lay_out_latex, spell_as_latex
 from quizgen.typeset.leaves import list_leaf_names
-from quizgen.typeset.nodes import Display, Leaf, Node
+from quizgen.typeset.nodes import Display, Leaf
+from quizgen.typeset.prose import (
+    Block,
+    CodeBlock,
+    Emphasis,
+    Inline,
+    InlineCode,
+    InlineFormula,
+    LaidOutFormula,
+    ListBlock,
+    Paragraph,
+    PictureLink,
+    PlainText,
+    RoundedMarker,
+    Slot,
+    TableBlock,
+    Unfilled,
+)
 
-
-class PlainText(msgspec.Struct, frozen=True, array_like=True, tag="w"):
-    """Words of a sentence, without mathematics."""
-
-    text: str
-
-
-class Slot(msgspec.Struct, frozen=True, array_like=True, tag="s"):
-    """A place to be filled: a drawn value, or a drawn phrase."""
-
-    name: str
-
-
-class InlineFormula(msgspec.Struct, frozen=True, array_like=True, tag="f"):
-    """Mathematics in a sentence, as a formula tree."""
-
-    expr: Expr
-
-
-class LaidOutFormula(msgspec.Struct, frozen=True, array_like=True, tag="x"):
-    """Mathematics in a sentence that is laid out already, with leaves for drawn values.
-
-    ``source`` is how it stands in the file.
-    """
-
-    node: Node
-    source: str
-
-
-class InlineCode(msgspec.Struct, frozen=True, array_like=True, tag="c"):
-    """Program text in a sentence."""
-
-    text: str
-
-
-class Emphasis(msgspec.Struct, frozen=True, array_like=True, tag="e"):
-    """Emphasised (``em``) or strong (``strong``) text."""
-
-    style: str
-    children: tuple[Inline, ...]
-
-
-class PictureLink(msgspec.Struct, frozen=True, array_like=True, tag="l"):
-    """A picture from a file beside the words, and what it shows in words."""
-
-    file: str
-    alt: tuple[Inline, ...]
-
-
-class TypesetFormula(Protocol):
-    """What stands in the place of a formula or a ``PictureLink`` once filled."""
-
-    @property
-    def typed_text(self) -> str:
-        """Return the formula as a learner would type it."""
-
-    @property
-    def text(self) -> str:
-        """Return the formula in plain text, for people."""
-
-
-class RoundedMarker(msgspec.Struct, frozen=True):
-    """Says that what follows is rounded: an equals sign in front of it becomes ≈."""
-
-
-if TYPE_CHECKING:
-    Inline = (
-        PlainText
-        | Slot
-        | InlineFormula
-        | LaidOutFormula
-        | InlineCode
-        | Emphasis
-        | PictureLink
-        | RoundedMarker
-        | TypesetFormula
-    )
-else:  # what a file gives, and what is kept of it
-    Inline = PlainText | Slot | InlineFormula | LaidOutFormula | InlineCode | Emphasis | PictureLink
-"""A piece of a sentence; once filled, without ``Slot``, ``Formula``, ``PictureLink``, ``About``."""
-Unfilled = Slot | InlineFormula | LaidOutFormula | PictureLink
 SlotValue = Callable[[Unfilled], tuple[Inline, ...]]
 """What a slot, a formula or a picture is replaced by."""
 Program = Callable[[str], str]
 """What becomes of program text."""
-
-
-class Paragraph(msgspec.Struct, frozen=True, array_like=True, tag="p"):
-    """One paragraph."""
-
-    children: tuple[Inline, ...]
-
-
-class ListBlock(msgspec.Struct, frozen=True, array_like=True, tag="i"):
-    """A list; if ``ordered``, it is numbered from 1."""
-
-    items: tuple[tuple[Block, ...], ...]
-    ordered: bool = False
-
-
-class CodeBlock(msgspec.Struct, frozen=True, array_like=True, tag="b"):
-    """Lines of program text."""
-
-    text: str
-
-
-class TableBlock(msgspec.Struct, frozen=True, array_like=True, tag="t"):
-    """A table with a head row."""
-
-    head: tuple[tuple[Inline, ...], ...]
-    rows: tuple[tuple[tuple[Inline, ...], ...], ...]
-
-
-Block = Paragraph | ListBlock | CodeBlock | TableBlock
 
 
 ConditionalSentence = tuple[str, tuple[Inline, ...]]

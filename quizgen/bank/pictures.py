@@ -20,10 +20,11 @@ from xml.etree import ElementTree as ET
 import msgspec
 
 from quizgen.bank.compile_cache import CompileCache
-from quizgen.bank.markdown import LanguageFile, PictureLink, PlainText
+from quizgen.bank.markdown import LanguageFile
 from quizgen.core.errors import BankError
 from quizgen.core.positions import TEXT
 from quizgen.core.untrusted import is_identifier, read_bytes
+from quizgen.typeset.prose import PictureLink, PlainText
 
 if TYPE_CHECKING:
     from PIL.Image import Image

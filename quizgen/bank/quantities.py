@@ -20,11 +20,12 @@ from pathlib import Path
 import msgspec
 
 from quizgen.bank.compile_cache import CompileCache
-from quizgen.bank.markdown import Inline, parse_inlines
+from quizgen.bank.markdown import parse_inlines
 from quizgen.core.complaints import complaint_of
 from quizgen.core.decoding import convert
 from quizgen.core.errors import BankError
 from quizgen.core.untrusted import error_context, parse_toml, read_text
+from quizgen.typeset.prose import Inline
 
 
 class _Written(msgspec.Struct, forbid_unknown_fields=True, frozen=True):

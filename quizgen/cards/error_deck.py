@@ -16,7 +16,6 @@ from typing import Literal
 import msgspec
 
 from quizgen.bank.bank import Bank
-from quizgen.bank.markdown import Paragraph, PlainText
 from quizgen.bank.variant import Variant
 from quizgen.cards.content import load_card_words
 from quizgen.cards.deck import Deck
@@ -41,6 +40,7 @@ from quizgen.paper.code import parse_code
 from quizgen.paper.paper import Paper, rebuild_paper
 from quizgen.paper.provenance import BankRecord, bank_difference_context
 from quizgen.question.compose import QuestionKey, compose_variant
+from quizgen.typeset.prose import Paragraph, PlainText
 
 LOOKED_AT = frozenset({"wrong", "partial", "blank"})
 """What becomes a card; an answer that could not be read is not a mistake."""

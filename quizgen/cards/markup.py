@@ -15,21 +15,22 @@ from html import escape
 from typing import Any, TypeGuard
 
 from quizgen import typeset
-from quizgen.bank.markdown import (
+from quizgen.bank.markdown import leaves
+from quizgen.figures import Figure
+from quizgen.question.interpolation import PlacedPicture, unbreakable_groups
+from quizgen.typeset.nodes import RELATION, MathRow, Node
+from quizgen.typeset.prose import (
     CodeBlock,
     Emphasis,
     Inline,
     InlineCode,
     ListBlock,
     Paragraph,
+    PlacedField,
     PlainText,
     TableBlock,
-    leaves,
+    TypesetMaths,
 )
-from quizgen.figures import Figure
-from quizgen.question.inlines import PlacedField, PlacedPicture, TypesetMaths
-from quizgen.question.interpolation import unbreakable_groups
-from quizgen.typeset.nodes import RELATION, MathRow, Node
 
 
 @dataclass(frozen=True, slots=True)

@@ -28,8 +28,10 @@ from quizgen.classes.judged_answers import PASSING, JudgedAnswers, compute_judgi
 from quizgen.classes.key_index import KeyIndex, read_key_at, read_line_at
 from quizgen.classes.lock import lock_folder
 from quizgen.classes.manual_grading import (
+    DecisionCase,
     decision_cases,
     group_cases,
+    prepare_cases,
     read_queue,
     undecided_answers,
     write_queue,
@@ -69,11 +71,15 @@ class SubmissionToGrade(NamedTuple):
 
 
 class GradedSubmission(NamedTuple):
-    """Marks of a submission, and under its name what the machine says if it was judged anew."""
+    """Marks of a submission, and if it was judged anew what the machine says, under its name.
+
+    So it does of the answers that a person is to decide on, each under a name of its own.
+    """
 
     marks: StudentMarks
     name: str
     judged: JudgedSubmission | None
+    cases: tuple[tuple[str, DecisionCase], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -209,6 +215,8 @@ def _iter_marks(
             counts[marks.student] = marks.filled_count, len(marks.parts)
             if one.judged and all(part.plain.note not in PASSING for part in one.judged.parts):
                 known.keep(one.name, one.judged)
+            for name, case in one.cases:
+                known.keep(name, case)
             yield marks
 
 
@@ -297,13 +305,19 @@ def _look_up(
 
 def run_grading_job(job: GradingJob) -> list[GradedSubmission]:
     """Return the marks of the submissions of a job."""
-    book = RulingBook(job.rulings)
+    book, done = RulingBook(job.rulings), set[str]()
     with error_context(job.keys, KeyFileError):
-        return [_grade_one(one, job, book) for one in job.sheets]
+        return [_grade_one(one, job, book, done) for one in job.sheets]
 
 
-def _grade_one(one: SubmissionToGrade, job: GradingJob, book: RulingBook) -> GradedSubmission:
+def _grade_one(
+    one: SubmissionToGrade, job: GradingJob, book: RulingBook, done: set[str]
+) -> GradedSubmission:
     """Return the marks of one submission, which is judged only if that is not known."""
-    judged = one.judged or judge_submission(read_key_at(job.keys, one.at), one.sheet, book)
+    if one.judged:
+        marks = apply_rulings(one.judged, one.sheet, book, job.scale)
+        return GradedSubmission(marks, one.name, None)
+    key = read_key_at(job.keys, one.at)
+    judged = judge_submission(key, one.sheet, book)
     marks = apply_rulings(judged, one.sheet, book, job.scale)
-    return GradedSubmission(marks, one.name, None if one.judged else judged)
+    return GradedSubmission(marks, one.name, judged, (*prepare_cases(key, marks, FIRST, done),))

@@ -54,6 +54,7 @@ class JudgedAnswers:
         self.folder, self._secret = folder, secret
         self._before = self._read()
         self._now: dict[str, bytes] = {}
+        self._adds = False
 
     def _read(self) -> dict[str, _Line]:
         """Return the lines of the run before by name; none where there are none to be read."""
@@ -65,25 +66,35 @@ class JudgedAnswers:
 
     def get(self, name: str, shape: type[T]) -> T | None:
         """Return what is kept under a name; None if nothing is that can be trusted."""
-        line = self._before.get(name)
-        if line is None or line.seal != self._seal(name, bytes(line.found)):
+        data = self._now.get(name) or self._find_before(name)
+        if data is None:
             return None
         prepare_type(shape)
         try:
-            found = msgspec.json.decode(
-                line.found, type=shape, dec_hook=lambda kind, text: kind(text)
-            )
+            found = msgspec.json.decode(data, type=shape, dec_hook=lambda kind, text: kind(text))
         except (msgspec.DecodeError, ValueError, ZeroDivisionError):
             return None
-        self._now[name] = bytes(line.found)
+        self._now[name] = data
         return found
+
+    def _find_before(self, name: str) -> bytes | None:
+        """Return what the run before kept under a name; None if somebody has changed it."""
+        line = self._before.get(name)
+        if line is None or line.seal != self._seal(name, bytes(line.found)):
+            return None
+        return bytes(line.found)
 
     def keep(self, name: str, found: object) -> None:
         """Note something under a name for the next run."""
-        self._now[name] = msgspec.json.encode(found, enc_hook=str)
+        self._now[name], self._adds = msgspec.json.encode(found, enc_hook=str), True
 
     def write(self) -> None:
-        """Write what this run found or took; what neither named is gone."""
+        """Write what this run found or took; what neither named is gone.
+
+        Where nothing was found anew the file stays: it has what people decided meanwhile, too.
+        """
+        if not self._adds:
+            return
         lines = (
             msgspec.json.encode(_Line(name, self._seal(name, data), msgspec.Raw(data)))
             for name, data in self._now.items()

@@ -226,12 +226,36 @@ def decision_cases(
     return [found[at] for at in range(len(asked))]
 
 
+def prepare_cases(
+    key: AnswerKey, marked: StudentMarks, lang: str, done: set[str]
+) -> Iterator[tuple[str, DecisionCase]]:
+    """Yield what helps to decide on the answers of one student, with names to keep it under.
+
+    Names in ``done`` are left out, and noted there. Processes that mark prepare it beside the
+    marks; ``decision_cases`` then finds it.
+    """
+    parts = {item_name(one, part): part for one in key.questions for part in one.parts}
+    for answer in undecided_answers([marked]):
+        name = _name_case(answer, parts[answer.item], lang)
+        if name in done:
+            continue
+        done.add(name)
+        case, note = _build_review_case(answer, parts[answer.item], lang)
+        if note not in PASSING:
+            yield name, case
+
+
+def _name_case(answer: AnswerGroupMember, part: KeyPart, lang: str) -> str:
+    """Return the name of a case: all that it follows from."""
+    said = msgspec.json.encode((lang, part, answer.item, answer.typed, answer.worth))
+    return compute_digest(compute_judging_digest(), b"case", said)
+
+
 def _recall_review_case(
     answer: AnswerGroupMember, part: KeyPart, lang: str, known: JudgedAnswers
 ) -> DecisionCase:
     """Return the case of an answer, as it was built before if nothing has changed."""
-    said = msgspec.json.encode((lang, part, answer.item, answer.typed, answer.worth))
-    name = compute_digest(compute_judging_digest(), b"case", said)
+    name = _name_case(answer, part, lang)
     case = known.get(name, DecisionCase)
     if case is not None:
         return replace(case, answer=answer)

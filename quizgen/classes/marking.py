@@ -27,6 +27,7 @@ from quizgen.classes.exam_details import FILE as EXAM
 from quizgen.classes.exam_details import read_exam_details
 from quizgen.classes.grading import GradedClassPart, StudentMarks, Submission, grade_submission
 from quizgen.classes.grading_history import GradingHistory
+from quizgen.classes.judged_answers import JudgedAnswers
 from quizgen.classes.key_index import KeyIndex
 from quizgen.classes.lock import lock_folder
 from quizgen.classes.manual_grading import (
@@ -161,7 +162,8 @@ class AnswerIndex:
         self.worth: dict[str, Fraction] = {}
         """Group to the points that can be had."""
         found = self._collect(list(GradingHistory(folder).current()))
-        for cases in group_cases(decision_cases(found, self.keys.key, self.lang)):
+        known = JudgedAnswers(folder, self.folder.settings.secret)
+        for cases in group_cases(decision_cases(found, self.keys.key, self.lang, known)):
             card = AnswerCard(cases[0].answer.item, tuple(cases))
             self.items.setdefault(card.item, []).append(card)
             self.worth |= dict.fromkeys(card.groups, card.worth)

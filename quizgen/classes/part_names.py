@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import re
 import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Mapping
 
 from quizgen.core.errors import KeyFileError
 from quizgen.grading.echo import safe_echo
+from quizgen.locale.word_patterns import WordPattern
 
-_NAME = re.compile(
-    r"\W*(?:(?:question|frage|aufgabe|part|teil|nr|no|q|f|a|প্রশ্ন)\W*)?(\d{1,4})[\W_]*([a-z]*)\W*"
-)
+_NAME = WordPattern(r"\W*(?:«part»\W*)?(\d{1,4})[\W_]*([a-z]*)\W*")
 
 
 class PartNames:

@@ -38,6 +38,7 @@ from quizgen.core.errors import ClassError, FormulaError
 from quizgen.core.files import PRIVATE, write_all
 from quizgen.core.spreadsheets import iter_spreadsheet_rows
 from quizgen.core.untrusted import format_csv, read_bytes, unescape_csv_formula
+from quizgen.locale.word_patterns import WordPattern
 from quizgen.maths.numbers import parse_written_number
 from quizgen.paper.grading import QUARTERS
 
@@ -54,11 +55,7 @@ OF_ONE = frozenset({POINTS, USE})
 """What is about one student."""
 LONGEST = 10_000
 """Characters of a cell."""
-_ON_PAPER = re.compile(
-    r"\W*((see|s\.?|siehe|vgl\.?|on|auf|cf\.?)\s+(the\s+|own\s+|dem\s+|der\s+)?"
-    r"(paper|sheet|back|page|drawing|sketch|over|blatt|rück|seite|papier|bogen|skizze|zeichnung)"
-    r"|(খাতায়|কাগজে|পেছনে))"
-)
+_ON_PAPER = WordPattern(r"\W*(?:«see»\s+(?:«see-which»\s+)?«see-where»|«see-there»)")
 """Words of whoever copies answers from paper."""
 _ENDS = " .,;:!?।"
 _TOLERANCE = re.compile(r"(decimals|sigfigs)\s*=\s*(\d{1,2})|(rel|abs)\s*=\s*(\d+(?:[./]\d+)?)")

@@ -10,7 +10,13 @@ from typing import TYPE_CHECKING
 
 import click
 
-from quizgen.cli.options import MOST_JOBS, IntRangeParam, LanguageParam, match_choice, split_names
+from quizgen.cli.options import (
+    LanguageParam,
+    jobs_option,
+    match_choice,
+    split_names,
+    worthwhile_processes,
+)
 from quizgen.cli.terminal import format_count, print_list, print_sentence, to_one_line
 from quizgen.core.errors import require_extra
 from quizgen.grading.echo import safe_echo
@@ -25,6 +31,8 @@ if TYPE_CHECKING:
     from quizgen.classes.submissions import RivalAnswers
 
 REPORTS = ("html", "pdf")
+A_SUBMISSION = 0.04
+"""Seconds that one takes, about, the first time that a class is marked."""
 
 _folder = click.argument("folder", type=click.Path(path_type=Path))
 
@@ -32,10 +40,12 @@ _folder = click.argument("folder", type=click.Path(path_type=Path))
 @click.command()
 @_folder
 @click.argument("files", type=click.Path(path_type=Path), nargs=-1)
-@click.option("--jobs", type=IntRangeParam(1, MOST_JOBS), default=1, help="Processes. [default: 1]")
+@jobs_option
 @click.option("--scheduler", default="", help="Dask scheduler that marks: tcp://HOST:8786.")
 @click.option("--try", "trial", is_flag=True, help="Say what would change, and change nothing.")
-def mark(folder: Path, files: tuple[Path, ...], jobs: int, scheduler: str, *, trial: bool) -> None:
+def mark(
+    folder: Path, files: tuple[Path, ...], jobs: int | None, scheduler: str, *, trial: bool
+) -> None:
     """Mark what came back to the class in FOLDER: its folder answers, and FILES, copied there.
 
     Takes what was filled in decisions.csv and rulings.csv into account, says whose marks change,
@@ -43,6 +53,7 @@ def mark(folder: Path, files: tuple[Path, ...], jobs: int, scheduler: str, *, tr
     """
     from quizgen.classes.class_folder import ClassFolder
     from quizgen.classes.grading_run import grade_class
+    from quizgen.classes.judged_answers import FILE
     from quizgen.classes.submissions import store_submissions
     from quizgen.core.executor import open_executor
 
@@ -50,7 +61,9 @@ def mark(folder: Path, files: tuple[Path, ...], jobs: int, scheduler: str, *, tr
     found.settings  # noqa: B018 - no answers are copied into a folder that is none of a class
     if trial and files:
         raise click.UsageError("with --try no files are copied into the folder")
-    with open_executor(jobs, scheduler) as (executor, ahead):
+    unknown = 0 if (folder / FILE).exists() else len(found.students())
+    count = worthwhile_processes(jobs, unknown * A_SUBMISSION)
+    with open_executor(count, scheduler) as (executor, ahead):
         lost = store_submissions(folder, files)
         run = grade_class(found, executor, ahead, keep=not trial)
     _remind_to_forget(folder)

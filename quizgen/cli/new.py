@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import ParamSpec, TypeVar
@@ -22,6 +23,8 @@ from quizgen.cli.terminal import build_command_line
 from quizgen.core.errors import BankError
 from quizgen.core.files import write_all
 from quizgen.core.untrusted import NAMES, is_identifier
+
+_SCHEMA = re.compile(rb"\A#:schema .*\n")
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -119,9 +122,10 @@ def template(place: str, kind: str | None, root: Path) -> None:
         )
     if name in own.template_paths:
         raise BankError(f"{own.template_paths[name]}: there is a template {name!r} already")
-    _write_new_files(
-        root, scaffold_template(topic, name, kind or next(iter(KINDS)), own.languages or ("en",))
-    )
+    made = scaffold_template(topic, name, kind or next(iter(KINDS)), own.languages or ("en",))
+    if not (root / "schemas").is_dir():  # as in a checkout: editors would look for it in vain
+        made = {path: _SCHEMA.sub(b"", text) for path, text in made.items()}
+    _write_new_files(root, made)
     _print_next_steps(root, name)
 
 

@@ -22,6 +22,8 @@ LARGEST = 1_000_000
 """Bytes of the largest thing that is kept."""
 OLD = 90 * 86400.0
 """Seconds after which a thing is swept away: it may be what nothing leads to any more."""
+SWEPT, PAUSE = ".{}-swept", 86400.0
+"""File whose time says when the folder beside it was last searched, and seconds until again."""
 _SUM = 64
 
 
@@ -120,7 +122,14 @@ def _is_own(folder: os.stat_result) -> bool:
 
 @cache
 def remove_stale(folder: Path) -> None:
-    """Delete the files of a folder that are older than ``OLD``, once in the life of a process."""
+    """Delete the files of a folder that are older than ``OLD``; at most once in ``PAUSE``.
+
+    To look through a folder that many versions have written to takes seconds.
+    """
+    swept, now = folder.with_name(SWEPT.format(folder.name)), time.time()
+    if swept.exists() and 0 <= now - swept.stat().st_mtime < PAUSE:
+        return
+    swept.touch()
     for path in folder.iterdir():
-        if time.time() - path.stat().st_mtime > OLD:
+        if now - path.stat().st_mtime > OLD:
             path.unlink(missing_ok=True)

@@ -290,6 +290,9 @@ _CODES = {
                   "make the sums agree"),
     "QG323": Rule("No paper meets the quotas of a blueprint.",
                   "widen the quota, or list other templates in the slots"),
+    "QG324": Rule("An example in own words says no more than how much or how bright something is, "
+                  "and another criterion of the part asks for that, too.",
+                  "say of what"),
     # Figures.
     "QG401": Rule("The figure of the question shows the answer.",
                   "leave it out of draw and alt where quiz is true"),

@@ -30,8 +30,9 @@ from quizgen.grading.reading.answer_reader import (
     write_in_signs,
 )
 from quizgen.grading.reading.factor_words import drop_bound
-from quizgen.grading.reading.labels import AskedNames
+from quizgen.grading.reading.labels import AskedNames, put_names_first
 from quizgen.grading.reading.normalise import LONGEST_PROSE
+from quizgen.grading.reading.spoken_values import list_other_readings
 from quizgen.grading.spec import AnySpec, ScalarSpec, WordSpec
 from quizgen.grading.verdict import PARTIAL, WRONG, Verdict, ambiguous, attach_message, unreadable
 from quizgen.maths.notation import FormulaReadError
@@ -52,7 +53,7 @@ DENIABLE = WITHOUT_WORDS | {"formula"}
 DECIDED = frozenset(
     {"unit-not-asked", "unit-other", "percent-not-asked", "unknown-unit-case", "two-readings",
      "used-twice", "no-answer", "too-long", "which-term", "another-word",
-     "denied", "sides-differ"}
+     "denied", "sides-differ", "several-answers"}
 )  # fmt: skip
 """Notes on what was read well enough: nothing around it makes it unreadable."""
 
@@ -100,6 +101,8 @@ def _judge_as_written(spec: AnySpec, typed: str, options: GradingOptions) -> Ver
     doubtful = has_second_meaning if verdict.verdict == WRONG else is_range_of_shares
     if verdict.is_graded and form in MEASURED and doubtful(typed):
         return ambiguous("bullet-or-range", verdict.read_as)
+    if verdict.verdict == WRONG and form in MEASURED:
+        verdict = _ask_for_reading(spec, typed, options) or verdict
     concluded = (
         find_conclusion(typed) if verdict.note == "sides-differ" and form in MEASURED else ""
     )
@@ -134,16 +137,32 @@ def _ask_what_is_meant(form: AnswerForm, typed: str, verdict: Verdict) -> Verdic
     readings = list_readings(typed) if form in MEASURED else []
     if not readings:
         return verdict
+    return _offer_readings(tuple(readings))
+
+
+def _ask_for_reading(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict | None:
+    """Return the verdict on ``16 (17)`` or ``1.085*10-2``, which a wrong number may mean.
+
+    It is asked back only where another reading earns something: else it costs the same.
+    """
+    readings = list_other_readings(typed)
+    found = [_judge_text(spec, text, options) for text in readings]
+    if not any(one.credit for one in found):
+        return None
+    return found[0] if len(found) == 1 else _offer_readings(readings)
+
+
+def _offer_readings(readings: tuple[str, ...]) -> Verdict:
+    """Return the question which of several readings is meant."""
     quoted = tuple(f"“{one}”" for one in readings)
-    return ambiguous(
-        "several-answers", " | ".join(readings), readings=quoted, numbers=tuple(readings)
-    )
+    return ambiguous("several-answers", " | ".join(readings), readings=quoted, numbers=readings)
 
 
 def _prepare(typed: str, form: AnswerForm, names: AskedNames) -> str:
     """Return the text that is judged first: without what would make a right answer a wrong one."""
     if form == "values":
-        return prove_groups(drop_counting(name_by_index(drop_transposed(typed), names)))
+        named = name_by_index(put_names_first(drop_transposed(typed), names), names)
+        return prove_groups(drop_counting(named))
     if form == "formula":
         return write_in_signs(typed)
     if form == "word":

@@ -1,9 +1,11 @@
-"""Runs a learner's function on hidden inputs; started as a process of its own, by its path.
+"""Runs learners' functions on hidden inputs; started as a process of its own, by its path.
 
-It imports nothing of quizgen. What it reads was written by somebody who may mean harm, so the text
-is taken apart first and runs only if it consists of what is listed here: numbers, arithmetic, loops
-over what is there, and named functions of NumPy. Then the process gives up what it may do: files,
-network, further processes, memory and time. The list is the wall, the limits stand behind it.
+It imports nothing of quizgen. It loads NumPy once and then does nothing itself: each program has a
+fork of its own, which nothing of another program has touched. What a program says was written by
+somebody who may mean harm, so the text is taken apart first and runs only if it consists of what is
+listed here: numbers, arithmetic, loops over what is there, and named functions of NumPy. Then the
+fork gives up what it may do: files, network, further processes, memory and time. The list is the
+wall, the limits stand behind it.
 """
 
 from __future__ import annotations
@@ -14,7 +16,10 @@ import ctypes
 import json
 import os
 import resource
+import select
+import signal
 import sys
+import time
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -28,6 +33,12 @@ MOST_DEEP = 40
 """How far brackets and blocks may be nested."""
 SECONDS = 3
 """CPU time for all programs on all inputs."""
+HANGS = 20.0
+"""Seconds after which a fork is killed: the machine is too busy for the little it computes."""
+IDLE = 60.0
+"""Seconds without a program after which the process ends."""
+LARGEST = 100_000
+"""Bytes of an outcome."""
 MEMORY = 256 * 2**20
 """Bytes beyond what the process has when NumPy is loaded."""
 SHOWN = 90
@@ -446,21 +457,68 @@ def _is_same_type(one: Any, other: Any) -> bool:
     return bool(one.kind == other.kind and (one.kind == "f" or one == other))
 
 
+def judge_job(np: ModuleType, job: bytes) -> dict[str, Any]:
+    """Return the outcome of a job, for which this process gives up all that it may do."""
+    wanted = json.loads(job)
+    lock()
+    try:
+        return Programs(np, wanted).judge()
+    except RefusedError as error:
+        return {"refused": error.note, "line": error.line, "found": error.found}
+    except MemoryError:
+        return {"refused": "program-time"}
+    except Exception as error:  # noqa: BLE001 - the parent hears of it
+        return {"fault": _name_error(error)}
+
+
+def fork_job(np: ModuleType, job: bytes) -> bytes:
+    """Return what a fork says of a job: JSON, in which ``fault`` says why it came to nothing."""
+    reading, writing = os.pipe()
+    child = os.fork()
+    if not child:
+        try:
+            os.dup2(writing, 1)
+            os.closerange(2, writing + 1)
+            os.write(1, json.dumps(judge_job(np, job)).encode())
+        finally:
+            os._exit(0)
+    os.close(writing)
+    told = _read_until(reading, time.monotonic() + HANGS)
+    os.close(reading)
+    if told is None:
+        os.kill(child, signal.SIGKILL)
+    ended = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+    if told is None:
+        return json.dumps({"fault": f"no outcome after {HANGS:g} seconds"}).encode()
+    # without a word: its limits left it none
+    return told if told and not ended else json.dumps({"refused": "program-time"}).encode()
+
+
+def _read_until(stream: int, end: float) -> bytes | None:
+    """Return all that is written to a pipe, as far as it may be; None if that takes too long."""
+    told = b""
+    while len(told) < LARGEST:
+        if not select.select([stream], [], [], max(0.0, end - time.monotonic()))[0]:
+            return None
+        more = os.read(stream, LARGEST)
+        if not more:
+            break
+        told += more
+    return told
+
+
 def main() -> None:
-    """Read a job from standard input, write its outcome to standard output."""
-    job = json.loads(sys.stdin.buffer.read())
+    """Read jobs from standard input, each after its length, and write outcomes likewise."""
     import numpy as np
 
     np.array2string(np.ones(2) / 3)  # what it loads late, it cannot load afterwards
     warnings.simplefilter("ignore")
     sys.setrecursionlimit(500)
-    lock()
-    try:
-        outcome = Programs(np, job).judge()
-    except RefusedError as error:
-        outcome = {"refused": error.note, "line": error.line, "found": error.found}
-    sys.stdout.write(json.dumps(outcome))
-    sys.stdout.flush()
+    jobs, outcomes = sys.stdin.buffer, sys.stdout.buffer
+    while select.select([0], [], [], IDLE)[0] and (length := jobs.readline()):
+        told = fork_job(np, jobs.read(int(length)))
+        outcomes.write(b"%d\n%b" % (len(told), told))
+        outcomes.flush()
 
 
 if __name__ == "__main__":

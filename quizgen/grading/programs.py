@@ -1,4 +1,4 @@
-"""Learners' programs: run on hidden inputs by a process that is locked down.
+"""Learners' programs: run on hidden inputs, each in a process that is locked down.
 
 What was typed never runs in this process. Where the machine cannot bound memory, files and time
 of another process, nothing runs and a person decides.
@@ -6,9 +6,12 @@ of another process, nothing runs and a person decides.
 
 from __future__ import annotations
 
+import atexit
 import json
+import os
 import sys
 from collections.abc import Mapping
+from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
 from threading import BoundedSemaphore
@@ -19,12 +22,8 @@ import msgspec
 from quizgen.core.decoding import decode_json
 
 RUNNER = Path(__file__).with_name("program_runner.py")
-HANGS = 20.0
-"""Seconds after which the process is killed: the machine is too busy for the little it computes."""
 AT_ONCE = 2
 """Processes at the same time: a class that hands in at once waits its turn."""
-LARGEST = 100_000
-"""Characters of an outcome."""
 _TURNS = BoundedSemaphore(AT_ONCE)
 
 ArrayValues: TypeAlias = dict[str, Any]
@@ -90,6 +89,65 @@ def run_program(
         return ProgramOutcome(fault=str(error)[:200])
 
 
+class _Runner:
+    """A process that has loaded NumPy and gives each job a fork of its own."""
+
+    def __init__(self) -> None:
+        import subprocess  # only where a program runs: marking loads nothing of it
+
+        environment = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "LANG": "C.UTF-8"}
+        self.owner = os.getpid()
+        self._process = subprocess.Popen(
+            [sys.executable, "-I", "-B", str(RUNNER)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            env=environment,
+            cwd="/",
+            start_new_session=True,
+        )
+
+    def run(self, job: bytes) -> bytes | None:
+        """Return what came of a job; None where the process has ended."""
+        lines, told = self._process.stdin, self._process.stdout
+        if lines is None or told is None:
+            return None
+        with suppress(BrokenPipeError):
+            lines.write(b"%d\n%b" % (len(job), job))
+            lines.flush()
+            length = told.readline()
+            if length:
+                return told.read(int(length))
+        self.end()
+        return None
+
+    def end(self) -> None:
+        """End the process, which reads no further job."""
+        with suppress(BrokenPipeError):
+            self._process.communicate()
+
+
+_IDLE: list[_Runner] = []
+"""Processes that wait for a job."""
+
+
+def _pop_idle() -> _Runner | None:
+    """Return a process that waits for a job of this process; None if none does."""
+    with suppress(IndexError):
+        while True:
+            runner = _IDLE.pop()
+            if runner.owner == os.getpid():  # else this process was forked, and it is the parent's
+                return runner
+    return None
+
+
+@atexit.register
+def _end_runners() -> None:
+    """End the processes that wait."""
+    while runner := _pop_idle():
+        runner.end()
+
+
 @lru_cache(maxsize=256)
 def _run_job(job: str) -> ProgramOutcome:
     """Return the outcome of a job, cached: the same answer need not run again.
@@ -99,25 +157,17 @@ def _run_job(job: str) -> ProgramOutcome:
     OSError
         If there is none, and there may be one another time.
     """
-    import subprocess  # only where a program runs: marking loads nothing of it
-
-    environment = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "LANG": "C.UTF-8"}
-    try:
-        with _TURNS:
-            done = subprocess.run(
-                [sys.executable, "-I", "-B", str(RUNNER)],
-                input=job.encode(),
-                capture_output=True,
-                timeout=HANGS,
-                env=environment,
-                cwd="/",
-                start_new_session=True,
-                check=False,
-            )
-    except subprocess.TimeoutExpired:
-        raise OSError(f"no outcome after {HANGS:g} seconds") from None
-    if done.returncode < 0 or b"MemoryError" in done.stderr:  # killed by its limits
-        return ProgramOutcome(refused="program-time")
-    if done.returncode:
-        raise OSError(done.stderr.decode("utf-8", "replace").strip()[-300:])
-    return decode_json(done.stdout[:LARGEST], ProgramOutcome)
+    data = job.encode()
+    with _TURNS:
+        runner = _pop_idle() or _Runner()
+        told = runner.run(data)
+        if told is None:  # it had waited too long
+            runner = _Runner()
+            told = runner.run(data)
+        if told is None:
+            raise OSError("the process that runs programs has ended")
+        _IDLE.append(runner)
+    outcome = decode_json(told, ProgramOutcome)
+    if outcome.fault:
+        raise OSError(outcome.fault)
+    return outcome

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator
 from contextlib import suppress
 from typing import ClassVar
 
@@ -13,9 +11,9 @@ from quizgen.grading.diagnosis.carry_forward import diagnosis_for
 from quizgen.grading.diagnosis.numeric_slips import agrees_within_half_percent, is_in_radians
 from quizgen.grading.judging.numeric import NumberTarget, best_verdict, judge_readings, judge_value
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.angle_spellings import list_angle_spellings
 from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.equalities import EqualitySide, read_typed_sides
-from quizgen.grading.reading.normalise import LONGEST
 from quizgen.grading.reading.numbers import ReadNumber
 from quizgen.grading.reading.quantities import TypedQuantity
 from quizgen.grading.rounding import format_key
@@ -70,7 +68,7 @@ class AngleSpec(ScalarSpec, kw_only=True, frozen=True):
             If it cannot be read.
         """
         found: list[Verdict] = []
-        for text in _list_spellings(self._close_turn(typed, options)):
+        for text in list_angle_spellings(self._close_turn(typed, options)):
             with suppress(FormulaReadError):
                 sides = read_typed_sides(text, options.decimal)
                 found.append(best_verdict(_judge_equal_side(self, side, options) for side in sides))
@@ -101,35 +99,6 @@ class AngleSpec(ScalarSpec, kw_only=True, frozen=True):
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
         return f"{pretty.format_number(format_key(self, parse_exact(self.value)))}°"
-
-
-_INVERSE = re.compile(
-    r"\\?(?:arc(?:tan|sin|cos)|a(?:tan2?|sin|cos))(?![^\W\d_])"
-    r"|(?:tan|sin|cos) ?(?:\^ ?\(?-1\)?|\^\{-1\}|⁻¹)"
-)
-_MINUTES = re.compile(r"(\d+) ?° ?(\d{1,2}) ?['′’](?: ?(\d{1,2}(?:\.\d+)?) ?(?:''|[″\"]))?")
-_ARC_MINUTES = re.compile(
-    r"(\d+(?:[.,]\d+)?) ?(?:arc ?min(?:utes?)?|Bogenminuten?|আর্ক মিনিট)(?!\w)", re.IGNORECASE
-)
-_CIRCLE = re.compile(r"(?<=\d) ?\^ ?\{? ?(?:o|\\circ) ?\}?")
-
-
-def _list_spellings(typed: str) -> Iterator[str]:
-    """Yield the angle as typed, and in the other ways that degrees are meant.
-
-    Inverse functions give degrees on the calculators of most people: ``arctan(0.16) = 9.09°``.
-    """
-    typed = _CIRCLE.sub("°", typed)
-    typed = _ARC_MINUTES.sub(r"(\1/60)°", typed) if len(typed) <= LONGEST else typed
-    minutes = _MINUTES.fullmatch(typed.strip())
-    if minutes:
-        typed = f"({minutes[1]} + {minutes[2]}/60 + {minutes[3] or 0}/3600)°"
-    yield typed
-    plain = typed.replace("°", "") if typed.count("°") > 1 else typed
-    if plain != typed:
-        yield plain
-    if len(typed) <= LONGEST and _INVERSE.search(plain):
-        yield _INVERSE.sub(lambda m: f"(180/pi)*{m[0]}", plain.removesuffix("°"))
 
 
 def _judge_equal_side(spec: AngleSpec, side: EqualitySide, options: GradingOptions) -> Verdict:

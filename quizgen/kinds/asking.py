@@ -37,8 +37,7 @@ from quizgen.maths.values import Value
 
 # Grading loads every kind, and never sets a sentence: what typesets is imported where it is used.
 if TYPE_CHECKING:
-    from quizgen.bank.markdown import Inline
-    from quizgen.question.inlines import TextOrInlines
+    from quizgen.typeset.prose import Inline, TextOrInlines
 
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 ROUNDED_MISTAKE = 4
@@ -337,8 +336,7 @@ def hint(key: str, **program: str) -> Callable[[AnySpec, str], tuple[TextOrInlin
 
 def sentence_with_code(lang: str, key: str, **program: str) -> tuple[Inline, ...]:
     """Return a sentence of the locales with program text in its blanks."""
-    from quizgen.bank.markdown import InlineCode
-    from quizgen.question.inlines import translate_inlines
+    from quizgen.typeset.prose import InlineCode, translate_inlines
 
     return translate_inlines(
         lang, key, **{name: (InlineCode(text),) for name, text in program.items()}
@@ -347,14 +345,14 @@ def sentence_with_code(lang: str, key: str, **program: str) -> tuple[Inline, ...
 
 def explain_as_code(spec: AnySpec, lang: str) -> TextOrInlines:
     """Return the key as it is typed, as program text."""
-    from quizgen.bank.markdown import InlineCode
+    from quizgen.typeset.prose import InlineCode
 
     return (InlineCode(show_spec(spec, lang)),)
 
 
 def explain_assigned(values: Iterable[tuple[str, str]]) -> TextOrInlines:
     """Return names with their values: ``n₁ = 128; n₂ = 3``."""
-    from quizgen.question.inlines import assignment_inlines
+    from quizgen.typeset.prose import assignment_inlines
 
     return assignment_inlines(values)
 

@@ -16,6 +16,7 @@ from quizgen.grading.judging.wordings import find_wording_in, holds_wording, sha
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, is_denied, says_otherwise
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, PICTURES, normalise_typed
+from quizgen.grading.reading.number_words import list_number_words
 from quizgen.grading.reading.units import read_unit
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
@@ -32,52 +33,10 @@ from quizgen.kinds.contract import (
     PartContext,
 )
 from quizgen.kinds.work import Work
-from quizgen.locale import fallback_language, translate
+from quizgen.locale import cache_words, fallback_language, translate
+from quizgen.locale.word_patterns import WordPattern, list_tables, set_of_words
 from quizgen.maths.notation import FormulaReadError
 
-_TRUE = frozenset(
-    {"true", "t", "yes", "y", "right", "correct", "wahr", "w", "ja", "j", "richtig", "r", "stimmt"}
-    | {"holds", "trifft zu", "zutreffend", "yep", "yeah", "ture", "tru", "truee", "treu", "korrekt"}
-    | {
-        "✅",
-        "☑",
-        "jo",
-        "jawohl",
-        "stimmt schon",
-        "absolutely true",
-        "definitely true",
-        "ঠিক আছে",
-        "হাঁ",
-        "satya",
-    }
-    | {"ja klar", "of course", "natürlich", "অবশ্যই", "আছে", "হ্যাঁ আছে"}
-    | {"hyã", "ha", "hã", "hae", "ঠিক কথা", "সত্য কথা", "সত্যি কথা", "satyi"}
-    | {"thik", "sothik", "sotti", "haan", "hya"}
-    | {"সত্য", "হ্যাঁ", "হ্যা", "সত্যি", "ঠিক", "সঠিক", "স", "1", "✓", "✔"}
-)
-_FALSE = frozenset(
-    {"false", "f", "no", "n", "wrong", "incorrect", "falsch", "nein", "untrue", "unwahr", "nope"}
-    | {
-        "doesn't hold",
-        "does not hold",
-        "trifft nicht zu",
-        "unzutreffend",
-        "nö",
-        "fasle",
-        "flase",
-        "fals",
-        "falsee",
-        "isnt true",
-        "no way",
-        "never",
-        "inkorrekt",
-        "❌",
-    }
-    | {"bhul", "mithya", "mittha", "vul", "na", "নেই", "ভুল কথা", "মিথ্যা কথা", "ঠিক নয়"}
-    | {"মিথ্যা", "মিথ্যে", "অসত্য", "ভূল", "বেঠিক", "না", "ভুল", "ম", "0", "2", "✗", "✘"}
-)
-_TAKING_BACK = frozenset({"না", "na", "নয়"})
-"""Words that turn round the one before them: ``ভুল না`` is right."""
 _FEWEST_VALUES = 2
 """Values that there are to choose from, at least."""
 _USUAL_VALUES = 5
@@ -91,89 +50,69 @@ _LABELLED = re.compile(
     r"[\[(]?(?P<mark>[A-Za-zক-ঞ]|\d{1,2})(?:[\])]? ?[).:=,-]+ ?|[\])] ?| (?!\())(?P<words>\S.+)"
 )
 _BEHIND = re.compile(r"(?P<words>.{2,}?) ?[\[(](?P<mark>[A-Za-zক-ঞ])[\])]")
-_FILLING = re.compile(r"^(?:option|অপশন) ", re.IGNORECASE)
-_IT_IS = re.compile(
-    r"^(?:(?:it|this|that)(?: is|'s)|(?:it|this|that)(?= isn't)"
-    r"|the (?:statement|claim)(?: is|(?= holds))|বিবৃতিটি"
-    r"|(?:es|das|der satz|die (?:aussage|behauptung))(?: ist)?|ist|এটা|এটি) ",
-    re.IGNORECASE,
-)
-_DENIED = re.compile(
-    r"(?:(?:is )?not|isn'?t|(?:ist )?nicht) (?P<word>.+)|(?P<before>.+?) (?:nicht|নয়|নয়|না)",
+_FILLING = WordPattern(r"^«choices.option» ", re.IGNORECASE)
+_IT_IS = WordPattern(r"^(?:«choices.it»(?: «choices.is»|'s)?|«choices.is») ", re.IGNORECASE)
+_DENIED = WordPattern(
+    r"(?:(?:«choices.is» )?«choices.not»|«choices.isnt») (?P<word>.+)"
+    r"|(?P<before>.+?) «choices.not-behind»",
     re.IGNORECASE,
 )
 """A word that is denied: what is not true is false, and the other way round."""
-_TRUTH_FIRST = re.compile(
+_TRUTH_FIRST = WordPattern(
     r"(?P<first>[^\s,;:.(]+)(?!(?<=\d)[.,]\d)"
-    r"(?:[,;:.] ?| (?=\()| ?[-–—] "
-    r"| (?=it |it's |its |that's |you |we |there |they |this |that |weil |because ))(?P<rest>.+)"
-    r"|(?P<alone>true|false|wahr|falsch|yes|[tf]|সত্য|মিথ্যা)(?! (?:is|are|if|when|for|or|oder"
-    r"|wenn|and|und"
-    r"|but|aber|no|not|nein|nicht) )"
-    r" (?P<more>\S+ \S.*)"
+    r"(?:[,;:.] ?| (?=\()| ?[-–—] | (?=«choices.reasons» ))(?P<rest>.+)"
+    r"|(?P<alone>«choices.alone»)(?! «choices.no-reason» ) (?P<more>\S+ \S.*)"
 )
 """*Yes* or *false* with a reason behind it; ``0.5`` is neither."""
 _DENIED_FIRST = re.compile(r"(?P<head>[^,;:.()]+)(?:[,;:.] | \(| [-–—] )(?P<rest>.+)")
 """*Not true* with a reason behind it."""
-_SHORT_DENIAL = re.compile(
-    r"(?:it|they|this|that|he|she) (?:does|do|is|are|was|has|can|will)(?P<no>(?: not|n't))?"
-)
+_SHORT_DENIAL = WordPattern(r"«choices.subjects» «choices.helpers»(?P<no>(?: «choices.not»|n't))?")
 """What is said behind *yes* or *no*: ``it does``, ``they are not``. With more it is a reason."""
-_CONCLUSION = re.compile(
-    r".+(?:[,;.] ?| )(?:so|thus|hence|therefore|daher|deshalb|also|তাই|সুতরাং|->|=>|→|⇒) "
-    r"(?P<rest>(?:it is |it's |das ist )?\S+)",
+_CONCLUSION = WordPattern(
+    r".+(?:[,;.] ?| )(?:«so»|->|=>|→|⇒) (?P<rest>(?:«choices.it» «choices.is» |it's )?\S+)",
     re.IGNORECASE | re.DOTALL,
 )
 """What is concluded at the end: ``it is linear, so true``, ``less motion blur -> B``."""
 _PIECES = re.compile(r"[;\n]|,(?=\s*[\[(]?[A-Za-zক-ঞ\d][\])]?\s*[).:=-])")
-_BANGLA_WORDS = re.compile(r"(?!(?:এবং|ও|আর|বা) )[^;,&+]*[\u0980-\u09ff]{3,}[^;,&+]*")
+_BANGLA_WORDS = WordPattern(r"(?!(?:«and»|«choices.or») )[^;,&+]*[\u0980-\u09ff]{3,}[^;,&+]*")
 """Words of Bangla behind a letter, and no further letter."""
 _BENGALI = re.compile(r"[\u0980-\u09ff]")
 _SET_OFF = re.compile(r"^[\[(]?(?:[^\W_]|\d{2}) ?[\]).:=-]+ ?[^\s,;]{2}|[\[(][^\W\d_][\])]$")
 """A letter with a sign before or behind words of more than one letter."""
 _UNFINISHED = re.compile(r"[+/&|(\[{][\s*+/&|(\[{]*$")
 """A sign behind which more was to come: no answer yet."""
-_ALTERNATIVE = re.compile(
-    r"(?<![\w\u0980-\u09ff])(?:or|oder|বা|অথবা|কিংবা)(?![\w\u0980-\u09ff])", re.IGNORECASE
+_ALTERNATIVE = WordPattern(
+    r"(?<![\w\u0980-\u09ff])«choices.or»(?![\w\u0980-\u09ff])", re.IGNORECASE
 )
 """A word between options of which only one is meant."""
 _SET_APART = (
-    re.compile(
-        r"(?P<kept>.+?)[,;]? \(?(?:(?:and|but|und|aber) )?"
-        r"(?:not|nicht|instead of|rather than|statt) (?P<denied>.+)",
+    WordPattern(
+        r"(?P<kept>.+?)[,;]? \(?(?:(?:«and»|«choices.but») )?«choices.instead» (?P<denied>.+)",
         re.IGNORECASE | re.DOTALL,
     ),
-    re.compile(
-        r"(?:not|nicht) (?P<denied>.+?)[,;]? (?:but|sondern) (?P<kept>.+)",
+    WordPattern(
+        r"«choices.not» (?P<denied>.+?)[,;]? «choices.but» (?P<kept>.+)",
         re.IGNORECASE | re.DOTALL,
     ),
 )
 """One option set against another: ``B, not E``; ``not E but B``."""
 _BRACKETED = re.compile(r"(?P<mark>[A-Za-zক-ঞ]) ?\((?P<words>[^()]{2,})\)")
-_ALL = frozenset({"all", "all of them", "all of these", "alle", "সব", "সবগুলো", "সবগুলি"})
-_ALL_BUT = re.compile(
-    r"(?:all|every(?:thing|one)?|alle|alles)(?: of them)?(?: (?:is|are))?(?: true| right| correct)?"
-    r",? (?:but|except|without|außer|ohne)(?: for)? (?P<out>.+)"
-    r"|(?P<before>.+?) (?:বাদে|ছাড়া|ছাড়া) (?:সব|বাকি সব)(?:গুলো|গুলি)?",
+_ALL_BUT = WordPattern(
+    r"«choices.all-before»(?: «choices.are»)?(?: «choices.right»)?,? «choices.except»"
+    r"(?: «choices.for»)? (?P<out>.+)"
+    r"|(?P<before>.+?) «choices.except-behind» «choices.all-behind»",
     re.IGNORECASE,
 )
-_ARE_TRUE = re.compile(
-    r" (?:are|is|sind|ist) (?:true|right|correct|richtig|wahr)$| (?:stimmen|সঠিক|সত্য)$",
-    re.IGNORECASE,
-)
+_ARE_TRUE = WordPattern(r" «choices.are» «choices.right»$| «choices.right-behind»$", re.IGNORECASE)
 """What is said behind options that are chosen."""
-_WORDED = re.compile(r"[,;\n]| (?:and|und|&|ও|এবং) ")
+_WORDED = WordPattern(r"[,;\n]| (?:«and»|&) ")
 """What stands between several options that are named by their words."""
-_PLACES = ["first", "second", "third", "fourth", "fifth", "sixth"]
-_PLACE = re.compile(rf"(?:the )?({'|'.join(_PLACES)})(?: one| option| answer)?", re.IGNORECASE)
+_NOT = WordPattern(r"\b«choices.not» ")
 _LETTER_LAST = re.compile(r"(?P<words>[^\W\d_]{3,}|[^:]*[^\W\d_]{3}[^:]*:) (?P<mark>[A-Z])")
 _LONG_WORD = 8
 """Letters of a word that can stand for an option by itself."""
-_FILLERS = re.compile(
-    r"(?<![\w\u0980-\u09ff])(?:and|und|ar|sowie|as well as|plus|both|beide|duitai"
-    r"|or|oder|option|answer|ans"
-    r"|এবং|ও|উত্তর)(?![\w\u0980-\u09ff])",
-    re.IGNORECASE,
+_FILLERS = WordPattern(
+    r"(?<![\w\u0980-\u09ff])«choices.between»(?![\w\u0980-\u09ff])", re.IGNORECASE
 )
 
 
@@ -318,7 +257,7 @@ def _read_listed(spec: ChoiceSpec, typed: str) -> list[int]:
         If those left out are no options.
     """
     every = list(range(1, len(spec.choices()) + 1))
-    if typed.casefold().strip(_AROUND) in _ALL:
+    if typed.casefold().strip(_AROUND) in set_of_words("choices.all"):
         return every
     told = [_find_option_by_text(spec, piece) for piece in _WORDED.split(typed)]
     if len(told) > 1 and all(told):
@@ -357,15 +296,26 @@ def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:
     if reasoned:
         return reasoned
     text = typed.strip(_AROUND)
-    place = _PLACE.fullmatch(text)
-    if place is not None and not _find_wording(spec, text):
-        number = _PLACES.index(place[1].lower()) + 1
-        return [number] if number <= len(spec.choices()) else []
+    places = _read_places(text, len(spec.choices()))
+    if places and not _find_wording(spec, text):
+        return places
+    if len(text) == 1 and (initial := _find_initial(spec, text)):
+        return initial
     named = _LETTER_LAST.fullmatch(text)
     if named is None or says_otherwise(named["words"]) or _find_wording(spec, named["words"]):
         return []
     position = LETTERS.find(named["mark"]) + 1
     return [position] if position <= len(spec.choices()) else []
+
+
+def _find_initial(spec: ChoiceSpec, letter: str) -> list[int]:
+    """Return the only option of one word that begins with a letter that is no label: Y, yellow."""
+    begun = [
+        place
+        for place, option in enumerate(spec.choices(), 1)
+        if option.isalpha() and option[:1].casefold() == letter.casefold()
+    ]
+    return begun if len(begun) == 1 and letter.upper() not in _list_letters(spec) else []
 
 
 def _find_reasoned_letter(spec: ChoiceSpec, typed: str) -> list[int]:
@@ -393,22 +343,52 @@ def _find_reasoned_letter(spec: ChoiceSpec, typed: str) -> list[int]:
     return [position] if _find_wording(spec, reason) in {0, position} else []
 
 
-_LETTER_AHEAD = re.compile(
+def _read_places(text: str, count: int) -> list[int]:
+    """Return the places of ``the fourth``, ``the last one``, ``the first two``; none of others."""
+    idle = set_of_words("articles") | set_of_words("choices.place-nouns")
+    words = [word for word in text.casefold().split() if word not in idle]
+    counted = [_list_ordinals().get(word, 0) for word in words]
+    if len(words) == 1 and words[0] in set_of_words("choices.last"):
+        return [count]
+    if len(words) == 1 and counted[0]:
+        return [place for place in counted if place <= count]
+    many = list_number_words().get(words[1], 0) if len(words) == len(("first", "two")) else 0
+    if not 1 < many <= count:
+        return []
+    if words[0] in set_of_words("choices.last"):
+        return list(range(count - many + 1, count + 1))
+    return list(range(1, many + 1)) if counted[0] == 1 else []
+
+
+@cache_words
+def _list_ordinals() -> dict[str, int]:
+    """Return what a place is called in any language, with its number."""
+    return {
+        word.casefold(): place
+        for table in list_tables("ordinals")
+        for place, row in enumerate(table["counted"], 1)
+        for word in row.split("|")
+    }
+
+
+_LETTER_AHEAD = WordPattern(
     r"[\[(]?(?P<mark>[A-Z]|[a-z](?=[\]),:;]))[\])]?(?: ?[,:;.–-] ?| (?=\())"
-    r"\(?(?!(?:not|no|nicht|nein|or|oder|maybe|perhaps|if)\b)(?P<reason>\S[^()]{6,}?)\)?",
+    r"\(?(?!«choices.doubts»(?!\w))(?P<reason>\S[^()]{6,}?)\)?",
     re.DOTALL,
 )
 """A letter and words behind it that give the reason."""
 _LETTER_BEHIND = re.compile(r".*[^\W\d_]{3}.*, (?P<rest>[A-Z])", re.DOTALL)
-_OTHERS_ARE_WRONG = re.compile(
-    r"(?:(?:[A-Z]|and|und|,|;)\s*)+ ?(?:is|are|ist|sind) (?:wrong|false|out|falsch)", re.IGNORECASE
+_OTHERS_ARE_WRONG = WordPattern(
+    r"(?:(?:[A-Z]|«and»|,|;)\s*)+ ?«choices.are» «choices.wrong»", re.IGNORECASE
 )
 
 
 def _find_worded_options(spec: ChoiceSpec, typed: str) -> list[int]:
     """Return the options that are meant by some of their words; none if one of them is none."""
-    if _UNFINISHED.search(typed) or _ALTERNATIVE.search(typed):
+    if _UNFINISHED.search(typed):
         return []
+    if _ALTERNATIVE.search(typed):
+        return _find_alternative(spec, typed)
     quoted = _find_quoted_options(spec, typed) if spec.kind == "multi" else []
     if quoted:
         return quoted
@@ -416,6 +396,13 @@ def _find_worded_options(spec: ChoiceSpec, typed: str) -> list[int]:
     pieces = (quotes or _WORDED.split(typed)) if spec.kind == "multi" else [typed]
     found = [_find_wording(spec, piece) for piece in pieces if piece.strip()]
     return list(dict.fromkeys(found)) if all(found) else []
+
+
+def _find_alternative(spec: ChoiceSpec, typed: str) -> list[int]:
+    """Return the option that offers two things itself, ``one or two``; none of any other."""
+    place = _find_wording(spec, typed)
+    texts = [said[place - 1] for said in (spec.choices(), *spec.said)] if place else []
+    return [place] if any(map(_ALTERNATIVE.search, texts)) else []
 
 
 def _find_wording(spec: ChoiceSpec, words: str) -> int:
@@ -429,7 +416,8 @@ def _find_wording(spec: ChoiceSpec, words: str) -> int:
     if found or remarked is None or says_otherwise(remarked["remark"]):
         return found
     found = find_wording_in(remarked["words"], languages)
-    return found if find_wording_in(remarked["remark"], languages) in {0, found} else 0
+    told = find_wording_in(remarked["remark"], languages)
+    return found or told if told in {0, found} or not found else 0
 
 
 _IN_QUOTES = re.compile(r'["“„]([^"“”„]+)["”“]')
@@ -439,12 +427,18 @@ _AROUND_REMARK = " .!।"
 
 def _find_quoted_options(spec: ChoiceSpec, typed: str) -> list[int]:
     """Return the options of which an answer consists, word by word; none if more stands in it."""
-    rest, found = typed, []
-    for place, option in sorted(enumerate(spec.choices(), 1), key=lambda row: -len(row[1])):
+    rest, found = _fold_signs(typed), []
+    listed = [(place, _fold_signs(option)) for place, option in enumerate(spec.choices(), 1)]
+    for place, option in sorted(listed, key=lambda row: -len(row[1])):
         if option in rest:
-            rest = rest.replace(option, ";", 1)
+            rest = rest.replace(option, "\n", 1)
             found.append(place)
-    return sorted(found) if not _WORDED.sub("", rest.replace("; ;", "")).strip() else []
+    return sorted(found) if not _WORDED.sub("", re.sub("\n[,;]?\n", "", rest)).strip() else []
+
+
+def _fold_signs(text: str) -> str:
+    """Return a text with one sign for minus, and for what parts the numbers of a point."""
+    return re.sub(r" ?([=,;]) ?", r"\1", text.replace("−", "-")).replace(",", ";")
 
 
 def _read_set_apart(spec: ChoiceSpec, typed: str) -> list[int]:
@@ -458,7 +452,7 @@ def _read_set_apart(spec: ChoiceSpec, typed: str) -> list[int]:
             continue
         try:
             kept = _read_options(spec, match["kept"])
-            denied = _read_options(spec, re.sub(r"\b(?:not|nicht) ", "", match["denied"]))
+            denied = _read_options(spec, _NOT.sub("", match["denied"]))
         except FormulaReadError:
             continue
         if not {*kept} & {*denied}:
@@ -556,10 +550,14 @@ def _find_truth_word(text: str) -> int:
     first, comma, second = word.partition(", ")
     if comma:
         return _find_truth_word(first) if _find_truth_word(first) == _find_truth_word(second) else 0
-    if word in _TRUE | _FALSE:
-        return 1 if word in _TRUE else 2
+    if word in set_of_words("choices.true") or word in set_of_words("choices.false"):
+        return 1 if word in set_of_words("choices.true") else 2
     first, blank, second = word.partition(" ")
-    told = _find_truth_word(first) if blank and second not in _TAKING_BACK else 0
+    told = (
+        _find_truth_word(first)
+        if blank and second not in set_of_words("choices.taking-back")
+        else 0
+    )
     return told if told and told == _find_truth_word(second) else 0
 
 

@@ -21,6 +21,7 @@ from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
 from quizgen.kinds.asking import explain_as_code, hint, make_spec, misconception_specs, say_on_paper
 from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredAnswer, InputControl, PartContext
 from quizgen.kinds.work import count_once
+from quizgen.locale.word_patterns import WordPattern
 from quizgen.maths.notation import FormulaReadError
 
 
@@ -68,6 +69,9 @@ class CodeSpec(WordSpec, kw_only=True, frozen=True):
         for text in _list_barer_texts(given):
             if unify_quotes(fold_blanks(text)) in outputs:
                 return correct(safe_echo(text))
+        if _EITHER.search(given) and not _EITHER.search(self.output):
+            raise FormulaReadError("two-readings", 1, safe_echo(given))
+        given = _TAIL.sub("", given)
         note = _note(self, given)
         if note in SET_OTHERWISE:
             return partial(HALF, safe_echo(given), note)
@@ -83,9 +87,9 @@ SET_OTHERWISE = frozenset({"output-brackets", "output-separators"})
 
 _BRACKETS = re.compile(r"[\[\](){}]")
 _SEPARATORS = re.compile(r"[\[\](){},;\s]+")
-_PROMPT = re.compile(
-    r"^(?:>>> ?|out(?:put)?(?: ?\[\d+\])? ?:|(?:ausgabe|আউটপুট|answer|antwort|উত্তর) ?:"
-    r"|the output is\b|print gives\b|(?:(?:it|the program) )?prints?\b)\s*",
+_PROMPT = WordPattern(
+    r"^(?:>>> ?|out(?:put)?(?: ?\[\d+\])? ?:|«choices.output» ?:|«choices.prints»(?!\w))\s*"
+    r"(?:«choices.output-things»(?!\w)\s*)?",
     re.IGNORECASE,
 )
 """What stands before an output that is copied or told."""
@@ -94,12 +98,14 @@ _ASSIGNED = re.compile(
     r"^(?:-+>|=>|→|⇒|\$|print:|\([^\W\d][\w, ]*\)=(?!=)|[^\W\d][\w.]*(?:\[[\d,: ]*\])?=(?!=)|=)\s*"
 )
 """What an output is called, or an arrow to it."""
-_TAIL = re.compile(
-    r"\s*(?:\((?=[^\W\d])[^()\d]*\)|\(=[^()]*\)|print হবে|হবে|#.*"
-    r"|(?:,\s*)?\b(?:because|since|weil|কারণ)\b.*|\s[-–—]\s.*)$",
-    re.DOTALL,
+_TAIL = WordPattern(
+    r"\s*(?:\((?=[^\W\d])[^()\d]*\)|\(=[^()]*\)|«choices.printed»|#.*"
+    r"|(?:,\s*)?(?<!\w)«choices.because»(?!\w).*|\s[-–—]\s.*)$",
+    re.DOTALL | re.IGNORECASE,
 )
 """A remark behind an output."""
+_AND = WordPattern(r"(?<!\w)«and»(?!\w)")
+_EITHER = WordPattern(r"(?<!\w)«choices.or»(?!\w)", re.IGNORECASE)
 _STRAIGHT = {**dict.fromkeys("“”„‟«»", '"'), **dict.fromkeys("‘’‚‛", "'")}
 """Quotation marks that an editor puts in place of those of a program."""
 _QUOTES = re.compile(f"[{''.join(_STRAIGHT)}]")
@@ -130,7 +136,10 @@ def _list_barer_texts(given: str) -> Iterator[str]:
         yield quoted[1]
     bare = _ASSIGNED.sub("", given)
     yield bare
-    yield _TAIL.sub("", bare)
+    short = _TAIL.sub("", bare)
+    yield short
+    yield _TAIL.sub("", short)
+    yield fold_blanks(_AND.sub(" ", short))
 
 
 def unify_quotes(text: str) -> str:

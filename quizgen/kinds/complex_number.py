@@ -46,7 +46,7 @@ from quizgen.maths.tree import Call, Expr, Sym, make_number, names_in, operators
 from quizgen.maths.values import Value
 
 if TYPE_CHECKING:
-    from quizgen.question.inlines import TextOrInlines
+    from quizgen.typeset.prose import TextOrInlines
 
 _HINT = hint("ask.complex")
 
@@ -286,10 +286,16 @@ def input_hints(spec: ComplexSpec, lang: str) -> tuple[TextOrInlines, ...]:
 def explain_key(spec: ComplexSpec, _lang: str) -> TextOrInlines:
     """The number as it is written by hand, with its unit."""
     number = _typeset_number(spec)
+<<<<<<< HEAD
     if not spec.unit or (spec.form == "polar" and spec.tolerance):
         return spec.typeset_with_unit(number)
     from quizgen.bank.markdown import PlainText
     from quizgen.question.inlines import to_inlines
+=======
+    if not spec.unit:
+        return number
+    from quizgen.typeset.prose import PlainText, to_inlines
+>>>>>>> main
 
     return spec.typeset_with_unit((PlainText("("), *to_inlines(number), PlainText(")")))
 
@@ -297,9 +303,9 @@ def explain_key(spec: ComplexSpec, _lang: str) -> TextOrInlines:
 def _typeset_number(spec: ComplexSpec) -> TextOrInlines:
     """Return the number alone as it is written by hand."""
     if spec.form == "polar" and spec.tolerance:
-        from quizgen.question.inlines import TypesetMaths
         from quizgen.typeset import quantity
         from quizgen.typeset.nodes import Ident, MathRow
+        from quizgen.typeset.prose import TypesetMaths
 
         size, angle = spec.rounded_polar()
         row = MathRow((quantity(size, ""), Ident("\N{ANGLE}"), quantity(angle, "deg")))

@@ -46,7 +46,7 @@ from quizgen.maths.tree import Expr
 from quizgen.maths.values import Value, Values
 
 if TYPE_CHECKING:
-    from quizgen.question.inlines import TextOrInlines
+    from quizgen.typeset.prose import TextOrInlines
 
 # Sizes beyond which nobody means what a template, a blueprint or a key says.
 MOST_CHOICES = 10_000  # values of a range, entries of a list

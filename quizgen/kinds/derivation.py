@@ -11,13 +11,14 @@ import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from functools import lru_cache
 from itertools import chain
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import msgspec
 from msgspec import Meta
 
-from quizgen.core.decoding import convert
+from quizgen.core.decoding import convert, json_decoder
 from quizgen.core.errors import FormulaError
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judge import read_error_verdict
@@ -65,7 +66,7 @@ from quizgen.maths.tidy import tidy_formula
 from quizgen.maths.tree import Call, Expr, Num, Sym, names_in, substitute
 
 if TYPE_CHECKING:
-    from quizgen.question.inlines import TextOrInlines
+    from quizgen.typeset.prose import TextOrInlines
 
 RELATIONS = (*SAME_SIGN, "ne")
 """Signs of a line."""
@@ -237,7 +238,7 @@ class DerivationSpec(WordSpec, kw_only=True, frozen=True):
         FormulaReadError
             If there are no lines, too many, or invisible characters.
         """
-        key = self.marking_key()
+        key = _recall_key(msgspec.json.encode(self))
         try:
             lines = self.reader(options.decimal).read(typed)
         except LineReadError as error:
@@ -338,6 +339,15 @@ class DerivationSpec(WordSpec, kw_only=True, frozen=True):
 
 LEAST_POINTS = 8
 """Points that conditions must leave of those tried."""
+
+
+@lru_cache(maxsize=128)
+def _recall_key(spec: bytes) -> DerivationKey:
+    """Return what lines are held against, for all learners whose specification, as JSON, is one."""
+    return _decode(spec).marking_key()
+
+
+_decode = json_decoder(DerivationSpec).decode
 
 
 def _points(one: KeyLine | KeyReason) -> Fraction:
@@ -476,7 +486,7 @@ def input_hints(spec: DerivationSpec, lang: str) -> tuple[TextOrInlines, ...]:
 
 def explain_key(spec: DerivationSpec, _lang: str) -> TextOrInlines:
     """Return the lines as they are written by hand, one after another."""
-    from quizgen.question.inlines import join_inlines, to_inlines
+    from quizgen.typeset.prose import join_inlines, to_inlines
 
     shown = [to_inlines(typeset_key(spec.relation(line.forms[0]).tree))
              for line in spec.lines.values()]  # fmt: skip

@@ -29,7 +29,7 @@ from quizgen.maths.notation import FormulaReadError, format_tree, pretty
 from quizgen.maths.tree import Call, Expr, make_number, names_in
 
 if TYPE_CHECKING:
-    from quizgen.question.inlines import TextOrInlines
+    from quizgen.typeset.prose import TextOrInlines
 
 
 class AuthoredEquation(AuthoredAnswer, kw_only=True, tag="equation", frozen=True):

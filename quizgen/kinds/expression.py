@@ -48,7 +48,7 @@ from quizgen.maths.tree import Expr, Num, names_in, substitute
 from quizgen.maths.values import Value
 
 if TYPE_CHECKING:
-    from quizgen.question.inlines import TextOrInlines
+    from quizgen.typeset.prose import TextOrInlines
 
 EXAMPLE = "(a+b)^2/2"
 """A formula as it is typed, and no answer to any question."""
@@ -338,9 +338,9 @@ def explain_key(spec: ExpressionSpec, _lang: str) -> TextOrInlines:
     key = parse_authored(spec.value, tuple(spec.symbols))
     if not spec.calls:
         return typeset_key(key)
-    from quizgen.question.inlines import TypesetMaths
     from quizgen.typeset import lay_out
     from quizgen.typeset.from_latex import lay_out_latex
+    from quizgen.typeset.prose import TypesetMaths
 
     leaves = {name: lay_out_latex(call) for name, call in spec.calls.items()}
     return (TypesetMaths(lay_out(key, leaves=leaves, inline=True), spec.show()),)

@@ -38,7 +38,7 @@ from quizgen.maths.units import UnitRegistry, build_unit_registry, format_unit
 from quizgen.maths.values import Value
 
 if TYPE_CHECKING:
-    from quizgen.question.inlines import TextOrInlines
+    from quizgen.typeset.prose import TextOrInlines
 
 EntryText: TypeAlias = str | list[str]
 """An entry of a key: a constant formula, or those of a real and an imaginary part."""
@@ -80,7 +80,7 @@ def typeset_key(tree: Expr, typed_text: str = "") -> TextOrInlines:
     ``typed_text`` is how it would be typed, where that is not the formula itself.
     """
     from quizgen import typeset
-    from quizgen.question.inlines import TypesetMaths
+    from quizgen.typeset.prose import TypesetMaths
 
     return (TypesetMaths(typeset.lay_out(tree, inline=True), typed_text or format_tree(tree)),)
 

@@ -22,6 +22,7 @@ from quizgen.grading.judging.spelling import (
     is_another_word,
     nearest_terms,
 )
+from quizgen.grading.judging.wordings import find_wording_in, says_whole
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, is_denied, says_otherwise
 from quizgen.grading.reading.normalise import ANSWER, PICTURES, apply_rewrite, refuse_invisible
@@ -48,6 +49,7 @@ from quizgen.locale import (
     load_words,
     translate,
 )
+from quizgen.locale.word_patterns import WordPattern, list_words
 from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.units import Dimension
 from quizgen.maths.values import Value
@@ -145,11 +147,11 @@ class GapSpec(WordSpec, kw_only=True, frozen=True):
 _JOINERS = "\u200c\u200d"
 _SEPARATORS = tuple(
     map(
-        re.compile,
+        WordPattern,
         (
             r"[;\n|]",
             r"[;\n|,/]|\s→\s",
-            r"\s*(?:[,;&]|\b(?:and|und)\b|\s(?:এবং|ও)\s)\s*",
+            r"\s*(?:[,;&]|\s«and»\s)\s*",
             r"\s+(?:[-–—→]|->|=>)\s+",
             r"\s+",
             r"[-–]",
@@ -163,12 +165,11 @@ _NUMBER = re.compile(
 )
 _PAIR = re.compile(r"(?<![-–—\d])(\d{1,2})\s*[-–—]\s*(\d{1,2})(?![-–—\d])")
 """A gap's number and a number as its word, ``1-3``."""
-_ENDINGS = ("ly", "e", "er", "en", "es", "em")
 LONG = 6
 """Letters of a term that may take an ending."""
 _ENDS = " \t\r\n,;="
 _QUOTES = "[]{}“”„‘’«»\"'"
-_JOINED = re.compile(r"\s(?:and|und|এবং|ও)$")
+_JOINED = WordPattern(r"\s«and»$")
 _MEASURE = re.compile(r"\d+ ?[a-zµ]{2,3}")
 _PICTURE = "\N{FRAME WITH PICTURE}"
 _PICTURE_IS = re.compile(rf"{_PICTURE} *\d+ *(?:[:=→⇒]|-+>)")
@@ -280,12 +281,20 @@ def _cut_pieces(typed: str, count: int) -> list[str]:
 
 def _judge_gap(spec: GapSpec, gap: list[str], word: str) -> Verdict:
     """Return the verdict on one gap, by the word itself or the term that it is nearest to."""
+    known = [*gap, *(term for one in spec.gaps() for term in one), *spec.among]
+    if _EITHER.search(word) and fold_word(word) not in map(fold_word, known):
+        return unreadable("words-around", safe_echo(word))
+    return _judge_word(spec, gap, _drop_idle_words(_drop_around(word, known), known[len(gap) :]))
+
+
+def _drop_around(word: str, known: list[str]) -> str:
+    """Return a term of another language in English, without a reason and a remark behind it."""
+    return _drop_remark(_drop_reason(_translate_word(word, known), known), known)
+
+
+def _judge_word(spec: GapSpec, gap: list[str], word: str) -> Verdict:
+    """Return the verdict on the word of one gap, without what stands around it."""
     right = {fold_word(term) for term in gap}
-    word = _translate_word(
-        word, [*gap, *(term for one in spec.gaps() for term in one), *spec.among]
-    )
-    word = _drop_remark(word, [*gap, *(term for one in spec.gaps() for term in one), *spec.among])
-    word = _drop_idle_words(word, [term for one in spec.gaps() for term in one] + spec.among)
     folded = fold_word(word)
     if not folded:
         return wrong("", "gap-empty") if not word else unreadable("no-answer")
@@ -319,7 +328,7 @@ def _translate_word(word: str, terms: list[str]) -> str:
     return next(filter(None, found), word)
 
 
-_LISTED = re.compile(r"\s*(?:[,;/&\s]|\b(?:and|und|ও|এবং)\b)\s*")
+_LISTED = WordPattern(r"\s*(?:[,;/&\s]|(?<!\S)«and»(?!\S))\s*")
 MOST_PIECES = 6
 """Words that can be a list of them."""
 
@@ -363,6 +372,18 @@ def _load_idle_words() -> frozenset[str]:
     )
 
 
+def _drop_reason(word: str, terms: list[str]) -> str:
+    """Return the term in front of its reason, ``black, since it absorbs``; else all of it."""
+    plain = _REASON.sub("", word).strip()
+    nearly = _NEARLY.sub("", plain)
+    known = {*map(fold_word, terms)}
+    return next((one for one in (plain, nearly) if one != word and fold_word(one) in known), word)
+
+
+_REASON = WordPattern(r"[,;.(]? ?(?<!\w)«choices.because»(?!\w).+", re.IGNORECASE | re.DOTALL)
+_NEARLY = WordPattern(r"^\(?(?:«nearly»|«about»)\)? ", re.IGNORECASE)
+
+
 def _drop_remark(word: str, terms: list[str]) -> str:
     """Return a term without what stands behind it in brackets, ``subtractive (CMYK)``.
 
@@ -381,9 +402,10 @@ def _drop_remark(word: str, terms: list[str]) -> str:
 
 
 _BANGLA = re.compile("[\u0980-\u09ff]")
-_OFFERED = re.compile(
-    r"^ ?(?:not|or|nicht|oder|maybe|perhaps|\?|না)|(?:^|[ ,])(?:or|oder|বা|অথবা) ", re.IGNORECASE
-)
+_EITHER = WordPattern(r"(?<!\S)«choices.or»(?!\S)", re.IGNORECASE)
+"""A word between several that are offered."""
+
+_OFFERED = WordPattern(r"^ ?«choices.offered»|(?:^|[ ,])«choices.or» ", re.IGNORECASE)
 
 
 def _drop_idle_words(word: str, terms: list[str]) -> str:
@@ -401,7 +423,7 @@ def _is_all_right(word: str, right: set[str]) -> bool:
     return len(pieces) > 1 and all(one & right for one in said)
 
 
-_ALONGSIDE = re.compile(r" ?/ ?|, | (?:and|und|ও|এবং|&) ")
+_ALONGSIDE = WordPattern(r" ?/ ?|, | (?:«and»|&) ")
 
 
 def _is_in_company(word: str, gap: Sequence[str], others: Sequence[str]) -> bool:
@@ -430,7 +452,7 @@ def _is_in_company(word: str, gap: Sequence[str], others: Sequence[str]) -> bool
     return False
 
 
-_TIMES_AHEAD = re.compile(r"^\d+ ?(?:times|x|×|mal|গুণ) ", re.IGNORECASE)
+_TIMES_AHEAD = WordPattern(r"^\d+ ?(?:«choices.times»|x|×) ", re.IGNORECASE)
 """By how much something is ``10 times less``."""
 MOST_COMPANY = 3
 """Words beside a term that are no sentence yet."""
@@ -442,6 +464,9 @@ def _judge_by_nearest_term(spec: GapSpec, word: str, gap: list[str], others: lis
     It is asked back when a wrong term is as near as a right one, or when it is a word of its own.
     """
     near, _ = nearest_terms(word, [*gap, *others])
+    meant = not near and _says_otherwise(spec, word, gap, others)
+    if meant:
+        return correct(safe_echo(word))
     if not near and _holds_a_term(word, [*gap, *others]):
         return unreadable("words-around", safe_echo(word))
     hits = {term in gap for term in near}
@@ -452,6 +477,19 @@ def _judge_by_nearest_term(spec: GapSpec, word: str, gap: list[str], others: lis
     if all(is_another_word(word, term, spec.terms) for term in near):
         return ambiguous("another-word", safe_echo(word))
     return correct(safe_echo(near[0]), "spelling", typed=word)
+
+
+def _says_otherwise(spec: GapSpec, word: str, gap: list[str], others: list[str]) -> bool:
+    """Return whether words say a right term otherwise, and no wrong one: ``lower fill factor``.
+
+    Numbers are no words, and neither are the terms that only look like one of these.
+    """
+    terms = {fold_word(term) for term in spec.terms}
+    spoken = {fold_word(piece) for piece in re.split(r"[\s,;/()]+", word)}
+    if spoken & terms or not others or any(map(str.isdigit, word)):
+        return False
+    sides = [["; ".join(gap), "; ".join(others)]]
+    return find_wording_in(word, sides, all_named=True) == 1 and says_whole(word, gap)
 
 
 def _fold_spelt_out(word: str) -> str:
@@ -466,9 +504,9 @@ def _is_inflection(word: str, right: set[str]) -> bool:
     German adjectives lose their noun that way, ``additive`` for ``additive Mischung``.
     """
     whole = fold_word(word)
-    return whole.endswith(_ENDINGS) and any(
+    return any(
         whole.endswith(end) and len(whole) - len(end) >= LONG and whole[: -len(end)] in right
-        for end in _ENDINGS
+        for end in list_words("choices.word-endings")
     )
 
 

@@ -16,7 +16,12 @@ from quizgen.grading.reading.literals import with_decimal_points
 from quizgen.grading.reading.normalise import normalise_typed
 from quizgen.grading.reading.numbers import read_number
 from quizgen.grading.reading.source_map import SourceText
+<<<<<<< HEAD
 from quizgen.grading.rounding import format_exact_or_figures, format_key
+=======
+from quizgen.grading.reading.written_intervals import write_interval
+from quizgen.grading.rounding import format_exact_or_figures
+>>>>>>> main
 from quizgen.grading.spec import NumericSpec
 from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
 from quizgen.kinds.asking import (
@@ -188,7 +193,7 @@ def read_union(typed: str, decimal: str) -> tuple[list[IntervalValue], str]:
     """
     if typed.strip() in _EMPTY:
         return [], EMPTY
-    inside = re.sub(r"^\s*(?:L|S|D)\s*=\s*", "", typed)
+    inside = write_interval(re.sub(r"^\s*(?:L|S|D)\s*=\s*", "", typed))
     read = [read_interval(piece, decimal) for piece in _JOINED.split(inside.strip())]
     read.sort(key=lambda pair: (pair[0].low is not None, pair[0].low or 0))
     return [interval for interval, _ in read], " ∪ ".join(echo for _, echo in read)

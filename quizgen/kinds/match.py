@@ -11,7 +11,7 @@ import msgspec
 
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import fold_word
-from quizgen.grading.judging.wordings import find_wording_in, holds_wording
+from quizgen.grading.judging.wordings import find_wording, find_wording_in, holds_wording
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, is_denied
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, LONE_LETTER, PICTURES, normalise_typed
@@ -29,43 +29,48 @@ from quizgen.kinds.contract import (
     find_name_problems,
 )
 from quizgen.kinds.work import count_listed
+from quizgen.locale.word_patterns import WordPattern, set_of_words
 from quizgen.maths.notation import FormulaReadError
 
 _SEPARATORS = re.compile(r"[\s,;.|&\[\]{}।॥]+")
 _ARROWS = re.compile(r"\s*(?:->|=>|<->|--|[-:=>()→↔⇒⇔⟶⟷↦])+\s*|(?<=\w)[/_](?=\w)")
 _COMMAS = re.compile(r"[;,\n](?![^(]*\))\s*")
 """What stands between sides in order, outside brackets."""
-_LEFT_OVER = re.compile(
-    r"(?<=\d)[ ,;.]*\(?(?:\d+(?:(?:,| and| und) \d+)*) "
-    r"(?:(?:is|are|ist|sind|stays|stay|bleibt|bleiben) "
-    r"(?:left over|left|over|unused|not used|spare|extra|übrig|nothing|none)"
-    r"|unused|left over|übrig|fits nothing|fits nowhere)\)?\.?$",
+_LEFT_OVER = WordPattern(
+    r"(?<=\d)[ ,;.]*\(?(?:\d+(?:(?:,| «and») \d+)*) "
+    r"(?:«choices.stays» «choices.left»|«choices.fits-nothing»)\)?\.?$",
     re.IGNORECASE,
 )
 """Right sides that are said to belong to nothing, behind the pairs."""
-_GROUPS = (
-    r"[;\n]",
-    r"[;\n]|\. ",
-    r"[,;\n](?![^(]*\))\s*(?=[A-Z]\b)",
-    r"[;\n]| (?:and|und|&|ও|এবং) ",
-    r"[,;\n]",
-    r"[,;\n]| (?:and|und|&|ও|এবং) ",
+_GROUPS = tuple(
+    map(
+        WordPattern,
+        (
+            r"[;\n]",
+            r"[;\n]|\. ",
+            r"[,;\n](?![^(]*\))\s*(?=[A-Z]\b)",
+            r"[;\n]| (?:«and»|&) ",
+            r"[,;\n]",
+            r"[,;\n]| (?:«and»|&) ",
+            r"[,;\n]|\. ",
+        ),
+    )
 )
 """What may stand between pairs, or between all that belong to one right side."""
-_RUN_OF_LABELS = re.compile(r"(?<![^\W_])([A-Z])(?:, ?| (?:and|und|&|ও|এবং) )(?=[A-Z](?![^\W_]))")
-_REST = re.compile(
-    r"^(?:and |und )?(?:the |der |die )?(?:rest|others?|remaining|übrigen?|anderen?"
-    r"|বাকি(?:গুলো|টা|রা)?|অন্যগুলো)"
-    r"(?: (?:is|are|ist|sind))?(?= |:|=)[ :=]*|[ :=]*(?:rest|others|বাকিগুলো)$",
+_RUN_OF_LABELS = WordPattern(r"(?<![^\W_])([A-Z])(?:, ?| (?:«and»|&) )(?=[A-Z](?![^\W_]))")
+_REST = WordPattern(
+    r"^(?:«and» )?(?:«articles» )?«choices.rest»(?: «choices.are»)?(?= |:|=)[ :=]*"
+    r"|[ :=]*«choices.rest»$",
     re.IGNORECASE,
 )
 """All left sides that have not been named: ``BCE = CCD, rest CMOS``."""
-_SIDES = re.compile(r"\s*(?:-+>|=>|[-:=→⇒])+\s*|\s+(?:-|is|ist|goes with|belongs to|passt zu)\s+")
-_FILLERS = frozenset(
-    {"and", "und", "with", "mit", "to", "zu", "is", "ist", "goes", "belongs"}
-    | {"gehoert", "passt", "matches", "match", "এবং", "ও", "হলো", "হল", "এর", "সাথে", "সঙ্গে"}
-)
-"""Words between the two sides of a pair, folded."""
+_SIDES = WordPattern(r"\s*(?:-+>|=>|[:=→⇒])+\s*|\s+(?:-|«choices.belongs»)\s+")
+_NUMBER_LAST = re.compile(r"(?P<words>.*[^\W\d_].*?) ?(?:\((?P<number>\d)\))")
+"""Words of a pair, and the number of its right side in brackets behind them."""
+_NUMBERED_LABEL = re.compile(r"[A-Z] ?(?:[:=→]|-+>|[-–])? ?\d(?!\d)")
+"""A pair of labels, whatever words stand behind it."""
+_LABEL_FIRST = re.compile(r"(?P<label>[A-Z])\)? ?(?:[:=→]|-+>|[-–] ) ?(?P<words>.+)")
+"""The label of a left side with the words of the right one."""
 
 
 class AuthoredMatch(AuthoredPooled, kw_only=True, tag="match", frozen=True):
@@ -238,37 +243,85 @@ def _read_groups(spec: MatchSpec, text: str) -> list[tuple[str, str]]:
     """Return the pairs of ``CCD: A, B; CMOS: C`` or ``HSV 2, YUV 1``; none if one is unclear."""
     text = _RUN_OF_LABELS.sub(r"\1 ", text)
     for between in _GROUPS:
-        groups = [group.strip() for group in re.split(between, text) if group.strip()]
+        groups = [group.strip() for group in between.split(text) if group.strip()]
         rest = _REST.search(groups[-1]) if len(groups) > 1 else None
         read = [_read_group(spec, group) for group in (groups[:-1] if rest else groups)]
         if rest and all(read):
             named = {left for pairs in read for left, _ in pairs}
             others = "".join(left for left in spec.pairs if left not in named)
             read.append(_read_group(spec, f"{others}: {_REST.sub('', groups[-1])}"))
+        if len(groups) > 1 and sum(map(bool, read)) == len(groups) - 1 and not rest:
+            read = _complete_groups(spec, groups, read)
         if len(groups) > 1 and all(read):
             return [pair for pairs in read for pair in pairs]
     return []
 
 
+def _complete_groups(
+    spec: MatchSpec, groups: list[str], read: list[list[tuple[str, str]]]
+) -> list[list[tuple[str, str]]]:
+    """Return the groups with the one pair whose left side has a name that nobody knows.
+
+    It is the left side that no other pair has, if there are enough of these and its right side is
+    clear.
+    """
+    named = [left for pairs in read for left, _ in pairs]
+    missing = [left for left in spec.pairs if left not in named]
+    sides = _SIDES.split(groups[read.index([])])
+    if len(missing) != 1 or len(named) < FEWEST_NAMED or len(sides) != len(("left", "right")):
+        return read
+    left, right = _find_pair(spec, *sides)
+    return [pairs or [(missing[0], right)] for pairs in read] if right and not left else read
+
+
 def _read_group(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
     """Return the pairs of one right side with its left ones, by labels or words; else none."""
+    marked = _read_marked_pair(spec, group)
+    if marked:
+        return [marked]
+    pairs = _read_tokens(spec, group)
+    return pairs if pairs or _NUMBERED_LABEL.match(group) else _read_sides(spec, group)
+
+
+def _read_marked_pair(spec: MatchSpec, group: str) -> tuple[str, str] | None:
+    """Return a pair whose right side is numbered behind its words, or its left one before them."""
+    numbered = _NUMBER_LAST.fullmatch(group)
+    if numbered and numbered["number"] in _list_targets(spec):
+        return _find_numbered_pair(spec, numbered["words"], numbered["number"])
+    headed = _LABEL_FIRST.fullmatch(group)
+    words = headed["words"] if headed and headed["label"] in spec.pairs else ""
+    right = (
+        "" if _is_run_of_labels(spec, words[:1]) else _find_side(spec, words, _list_targets(spec))
+    )
+    return (headed["label"], right) if headed and right else None
+
+
+def _read_tokens(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
+    """Return the pairs of labels with a right side in words, or of a number with a left one."""
     tokens = [
-        token for token in re.split(r"[\s,:=→>()-]+", group) if token not in {"", "and", "und"}
+        token
+        for token in re.split(r"[\s,:=→>()-]+", group)
+        if token and token not in set_of_words("and")
     ]
     runs = [token for token in tokens if _is_run_of_labels(spec, token)]
     lefts = [label for token in runs for label in token]
     rest = " ".join(token for token in tokens if token not in runs)
     digits = [token for token in tokens if token.isdecimal()]
     if len(lefts) == len(digits) == 1 and digits[0] in _list_targets(spec):
-        meant = _find_side(spec, rest.replace(digits[0], ""), _list_targets(spec))
+        meant = _find_named_side(spec, rest.replace(digits[0], ""))
         return [(lefts[0], digits[0])] if meant in {"", digits[0]} else []
     if lefts:
         right = rest if rest in _list_targets(spec) else _find_side(spec, rest, _list_targets(spec))
         return [(left, right) for left in lefts] if right else []
-    if len(digits) == 1:
+    if len(digits) == 1 and digits[0] in _list_targets(spec):
         words = " ".join(token for token in tokens if token not in digits)
         left = _find_side(spec, words, list(spec.pairs))
         return [(left, digits[0])] if left else []
+    return []
+
+
+def _read_sides(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
+    """Return the pair of two sides in words, parted by a sign or at the only fitting place."""
     sides = _SIDES.split(group)
     if len(sides) == len(("left", "right")):
         pair = _find_pair(spec, *sides)
@@ -278,6 +331,17 @@ def _read_group(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
     found = {_find_pair(spec, " ".join(spoken[:cut]), " ".join(spoken[cut:])) for cut in cuts}
     found = {pair for pair in found if all(pair)}
     return [*found] if len(found) == 1 else []
+
+
+def _find_numbered_pair(spec: MatchSpec, words: str, number: str) -> tuple[str, str] | None:
+    """Return the pair of ``V = 0 gives black (3)``; None if its words name no or another side."""
+    label, _, rest = words.strip().partition(" ")
+    named = label.strip(":") if label.strip(":") in spec.pairs else ""
+    meant = _find_named_side(spec, rest if named else words)
+    if named:
+        return (named, number) if meant in {"", number} and not is_denied(rest) else None
+    left = _find_side(spec, words, list(spec.pairs))
+    return (left, number) if left else None
 
 
 def _find_pair(spec: MatchSpec, first: str, second: str) -> tuple[str, str]:
@@ -305,11 +369,21 @@ def _find_side(spec: MatchSpec, words: str, labels: Sequence[str]) -> str:
     return labels[place - 1] if place else ""
 
 
+FEWEST_NAMED = 2
+"""Left sides that are named, so that the last one need not be."""
+
+
+def _find_named_side(spec: MatchSpec, words: str) -> str:
+    """Return the label of the right side whose own words these are; empty for none or several."""
+    labels = _list_targets(spec)
+    listed = ([said.get(label, "") for label in labels] for said in (spec.words, *spec.said))
+    places = {find_wording(words, wordings, all_named=True) for wordings in listed} - {0}
+    return labels[places.pop() - 1] if len(places) == 1 else ""
+
+
 MOST_WORDS = 12
 """Words of a pair that nothing parts."""
-_NUMBERED_SIDE = re.compile(
-    r"(?:(?:setting|picture|photo|number|option|graph|curve|কার্ভ|ছবি|Bild) )?(\d)"
-)
+_NUMBERED_SIDE = WordPattern(r"(?:(?:«pictures»|«choices.numbered») )?(\d)", re.IGNORECASE)
 BANGLA_DIGITS = str.maketrans("০১২৩৪৫৬৭৮৯", "0123456789")
 
 
@@ -329,7 +403,7 @@ def _split_pairs(text: str, left: dict[str, str]) -> list[tuple[str, str]]:
         If a label is left without a partner.
     """
     words = [w for w in map(fold_word, _SEPARATORS.split(_ARROWS.sub(" ", text))) if w]
-    words = [w for w in words if w not in _FILLERS or w in left]
+    words = [w for w in words if w in left or w not in set_of_words("choices.pair-fillers")]
     label = "|".join(re.escape(name) for name in sorted(left, key=len, reverse=True))
     run = re.compile(rf"(?:(?:{label})\d{{1,2}})+|(?:\d{{1,2}}(?:{label}))+")
     flat: list[str] = []

@@ -37,6 +37,7 @@ from quizgen.grading.reading.numbers import (
 )
 from quizgen.grading.reading.quantities import TypedQuantity
 from quizgen.grading.reading.source_map import SourceText
+from quizgen.grading.reading.spoken_values import read_share
 from quizgen.grading.reading.units import TypedUnit, listed_unit
 from quizgen.grading.rounding import format_key
 from quizgen.grading.spec import ScalarSpec, is_large_count, is_whole_number
@@ -127,7 +128,7 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
         try:
             sides = _read(self, source, options)
         except FormulaReadError:
-            factor = "" if self.percent or self.counts else read_factor(typed)
+            factor = self._read_spoken_share(typed)
             if not factor:
                 raise
             sides = _read(self, SourceText.of(factor), options)
@@ -137,6 +138,14 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
         last = re.split("[=≈]", typed)[-1]
         said = self.judge(_MILLION.sub("", last), options)  # 50 million for 50 Mpx
         return said if said.credit else verdict
+
+    def _read_spoken_share(self, typed: str) -> str:
+        """Return a factor or share in words, ``one fifth``, ``1 in 5``; else empty."""
+        if self.counts:
+            return ""
+        share = read_share(typed) if 0 < parse_exact(self.value) < 1 else ""
+        factor = share or read_factor(typed)
+        return "" if self.percent and "/" not in factor else factor
 
     @property
     def printed_unit(self) -> str:
@@ -298,8 +307,11 @@ def _judge_side(
     typed = side.quantity.unit
     if typed is None:
         return _judge_all_readings(spec, side.readings, options)
-    if typed.text == "%":
-        return _judge_all_readings(spec, map_readings(side.readings, as_percent), options)
+    if not typed.dimension:
+        times = typed.factor * 100  # 200 ‰ is 20 %
+        return _judge_all_readings(
+            spec, map_readings(side.readings, lambda n: _as_share(n, typed, times)), options
+        )
     if not spec.counts:
         raise FormulaReadError("unit-not-asked", source.column(0), typed.text)
     unit_counted = listed_unit(count_noun_unit(spec.counts))
@@ -309,6 +321,14 @@ def _judge_side(
     return _judge_all_readings(
         spec, map_readings(side.readings, lambda n: _scale_to_unit(n, typed, factor)), options
     )
+
+
+def _as_share(number: ReadNumber, typed: TypedUnit, times: Value) -> ReadNumber:
+    """Return a number of percent, permille or ppm as one of percent."""
+    if times == 1:
+        return as_percent(number)
+    read_as = f"{number.read_as} {format_unit(typed.text)}"
+    return replace(scale_number(number, times), read_as=read_as, percent=True)
 
 
 def _scale_to_unit(number: ReadNumber, typed: TypedUnit, factor: Value) -> ReadNumber:

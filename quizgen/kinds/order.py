@@ -30,47 +30,35 @@ from quizgen.kinds.contract import (
 )
 from quizgen.kinds.work import count_listed
 from quizgen.locale import translate
+from quizgen.locale.word_patterns import WordPattern, set_of_words
 from quizgen.maths.notation import FormulaReadError
 
 MOST_STEPS = 40
-_LETTERED = r"[A-Za-z](?:(?:,| and| or| und)? [A-Za-z])*"
-_WRONG = r"\b(?:wrong|false|falsch|keine?n?|nicht|not|no|never|nie|না|নেই|নয়|ভুল)(?!\w)"
-"""A word that says why a step is none."""
-_LEFT_OUT = re.compile(
-    rf"(?P<kept>[^()]+) \((?P<aside>[A-Z])(?= [^()]*{_WRONG}) [^()]{{3,}}\)"
-    r"|(?P<behind>.+)(?:[,;:.] ?| ?\("
-    r"| (?=without |leav|ohne |বাদ |not |but |and not |no |nicht |except ))"
-    r"(?:(?:without|leave out|leaving out|leaves out|ohne|বাদ) (?P<out>[^()]+)"
-    rf"|(?:(?:and |but |und )?(?:not|no|nicht)|except|außer) (?P<denied>{_LETTERED})"
-    rf"|(?P<wrong>{_LETTERED}) (?:(?:is |are |ist |sind |was )?"
-    r"(?:wrong|false|out|falsch|left out|not|nicht|missing|impossible|unused|extra|superfluous"
-    r"|nonsense|unnecessary|not needed|unmöglich|überflüssig|übrig|Unsinn"
-    r"|বাদ|ভুল|অসম্ভব|লাগে না|হয় না|নয়)"
-    r"|(?:does|do)(?: not|n't) (?:belong|fit|happen|exist)|makes no sense|never happens"
-    r"|gehör(?:t|en) nicht dazu|passt nicht|entfällt|fällt weg)"
-    r"(?:[,:]? (?:because|since|weil|কারণ) [^()]+)?)[).]*",
+_LETTERED = r"[A-Za-z](?:(?:,| «and»| «choices.or»)? [A-Za-z])*"
+_LEFT_OUT = WordPattern(
+    r"(?P<kept>[^()]+) \((?P<aside>[A-Z])(?= [^()]*\b«choices.no-step»(?!\w)) [^()]{3,}\)"
+    r"|(?P<behind>.+)(?:[,;:.] ?| ?\(| (?=«choices.without» |«choices.except-steps» ))"
+    rf"(?:«choices.without» (?P<out>[^()]+)|«choices.except-steps» (?P<denied>{_LETTERED})"
+    rf"|(?P<wrong>{_LETTERED}) (?:«choices.stays» |was )?«choices.is-no-step»"
+    r"(?:[,:]? «choices.because» [^()]+)?)[).]*",
     re.IGNORECASE,
 )
-_LEFT_OUT_FIRST = re.compile(
-    r"(?:leave out|leaving out|without|ohne|not|skip) (?P<out>[A-Za-z])\s*[:,;–-]\s*(?P<kept>.+)",
-    re.IGNORECASE,
+_LEFT_OUT_FIRST = WordPattern(
+    r"«choices.without» (?P<out>[A-Za-z])\s*[:,;–-]\s*(?P<kept>.+)", re.IGNORECASE
 )
 """Steps, and others that are said not to belong to them."""
 _BETWEEN_STEPS = tuple(
-    re.compile(between, re.IGNORECASE)
+    WordPattern(between, re.IGNORECASE)
     for between in (
         r"\s*(?:[;>→⇒⟶\n|]|-+>|=>)\s*",
         r"\s*<\s*",
-        r"\s*,\s*(?:(?:and )?then |dann |und dann |তারপর )?|\s+(?:then|dann|তারপর)\s+",
+        r"\s*,\s*(?:«choices.then» )?|\s+«choices.then»\s+",
         r"\s+[-–—]\s+",
         r"\s+(?=\d{1,2}[.)] )",
         r"(?<=\))\s*",
     )
 )
-_STEP_NUMBER = re.compile(
-    r"^(?:\d{1,2}[.)]\s+|(?:first|firstly|and|then|finally|last|zuerst|erst|dann|প্রথমে|শেষে) )+",
-    re.IGNORECASE,
-)
+_STEP_NUMBER = WordPattern(r"^(?:\d{1,2}[.)]\s+|(?:«choices.first» )+)", re.IGNORECASE)
 _COMPARED = re.compile(r"(?<![-=])[<>](?!>)")
 _MARKED = re.compile(r"\(([A-Z])\)")
 """The label of a step in brackets behind its words."""
@@ -89,50 +77,6 @@ _TIED = re.compile(
     r"[^\W\d_] ?= ?[^\W\d_]|[^/]*\w ?/ ?\w ?[\s,;>→-]+\w|^[^/]*\w[\s,;>→-]+\w ?/ ?\w"
 )
 """Steps set equal or beside each other among others in order: ``B = D > A``, ``E G A/B F``."""
-_FILLERS = frozenset(
-    {
-        "then",
-        "dann",
-        "danach",
-        "erst",
-        "und",
-        "and",
-        "তারপর",
-        "এরপর",
-        "এবং",
-        "first",
-        "zuerst",
-        "প্রথমে",
-        "+",
-    }
-    | {
-        "finally",
-        "last",
-        "next",
-        "zuletzt",
-        "শেষে",
-        "lastly",
-        "at",
-        "the",
-        "very",
-        "end",
-        "am",
-        "ende",
-    }
-    | {
-        "zum",
-        "schluss",
-        "schließlich",
-        "tarpor",
-        "sheshe",
-        "sobar",
-        "prothome",
-        "age",
-        "ebong",
-        "সবশেষে",
-        "শেষ",
-    }
-)
 
 
 class AuthoredOrder(AuthoredPooled, kw_only=True, tag="order", frozen=True):
@@ -441,7 +385,8 @@ def _split_words(text: str, known: dict[str, str]) -> list[str]:
     ``B-D`` alone could be a range and is not cut.
     """
     words = [w for w in re.split(r"[\s,;.<>|=()\[\]{}।॥→⇒⟶/:+_]+|-+>", text) if w.strip("-")]
-    words = [w for w in words if w.casefold() not in _FILLERS or fold_word(w) in known]
+    idle = set_of_words("choices.step-fillers")
+    words = [w for w in words if w.casefold() not in idle or fold_word(w) in known]
     cut = [w for word in words for w in word.split("-") if w]
     return cut if len(cut) > 2 and any(fold_word(w) not in known for w in words) else words
 

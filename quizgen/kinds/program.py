@@ -32,7 +32,7 @@ from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.numbers import to_float
 
 if TYPE_CHECKING:
-    from quizgen.question.inlines import TextOrInlines
+    from quizgen.typeset.prose import TextOrInlines
 
 TYPES = ("bool", "uint8", "uint16", "int16", "int32", "int64", "float32", "float64")
 """Types of the arrays that a function is given."""
@@ -239,7 +239,7 @@ def input_hints(spec: ProgramSpec, lang: str) -> tuple[TextOrInlines, ...]:
 
 def explain_key(spec: ProgramSpec, _lang: str) -> TextOrInlines:
     """Return the solution as program text."""
-    from quizgen.bank.markdown import InlineCode
+    from quizgen.typeset.prose import InlineCode
 
     return (InlineCode(spec.solution.strip("\n")),)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from fractions import Fraction
 from typing import ClassVar
 
@@ -17,11 +18,17 @@ from quizgen.grading.diagnosis.numeric_slips import (
 )
 from quizgen.grading.judging.numeric import NumberTarget, best_verdict, judge_readings, judge_value
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.angle_spellings import list_angle_spellings
 from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.equalities import EqualitySide, read_typed_sides
 from quizgen.grading.reading.numbers import ReadNumber
+<<<<<<< HEAD
 from quizgen.grading.reading.quantities import TypedQuantity
 from quizgen.grading.reading.units import TypedUnit, listed_unit, part_joined_units
+=======
+from quizgen.grading.reading.quantities import TypedQuantity, put_unit_behind
+from quizgen.grading.reading.units import TypedUnit, listed_unit
+>>>>>>> main
 from quizgen.grading.rounding import format_key
 from quizgen.grading.spec import COUNTED, ScalarSpec, is_large_count
 from quizgen.grading.verdict import HALF, Verdict, attach_values, partial, wrong
@@ -119,6 +126,7 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
         FormulaReadError
             If it cannot be read.
         """
+<<<<<<< HEAD
         try:
             sides = read_typed_sides(part_joined_units(typed, self.unit), options.decimal)
         except FormulaReadError as error:
@@ -126,6 +134,28 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
                 error.expected = (self.unit,)  # ev is eV where that is asked, not EV
             raise
         return best_verdict(_judge_side(self, side, options) for side in sides)
+=======
+        typed = put_unit_behind(typed, self.unit)
+        found: list[Verdict] = []
+        for text in self._list_spellings(typed):
+            try:
+                sides = read_typed_sides(text, options.decimal)
+            except FormulaReadError as error:
+                if error.expected and error.found.lower() == self.unit.lower():
+                    error.expected = (self.unit,)  # ev is eV where that is asked, not EV
+                refused = error
+                continue
+            found.append(best_verdict(_judge_side(self, side, options) for side in sides))
+        if not found:
+            raise refused
+        return max(found, key=lambda verdict: verdict.credit)
+
+    def _list_spellings(self, typed: str) -> Iterable[str]:
+        """Return the answer as typed, and in the other ways that degrees are meant."""
+        if self.unit not in {"deg", "°"}:
+            return (typed,)
+        return [typed, *(_with_degrees(text) for text in list_angle_spellings(typed))]
+>>>>>>> main
 
     @property
     def printed_unit(self) -> str:
@@ -139,6 +169,13 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
             return f"{time} {SECONDS}"
         number = pretty.format_number(format_key(self, value))
         return f"{number} {format_unit(self.unit)}".strip()
+
+
+def _with_degrees(text: str) -> str:
+    """Return a formula of degrees with their sign behind it, which functions do without."""
+    if "180/pi" not in text:
+        return text
+    return f"{text}°" if "=" in text or text.endswith(")") else f"({text})°"
 
 
 _CLOCK = re.compile(

@@ -9,11 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
+from functools import lru_cache
 from typing import Annotated, Any, Literal, NamedTuple
 
 import msgspec
 from msgspec import Meta
 
+from quizgen.core.decoding import json_decoder
 from quizgen.core.errors import FormulaError
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.statements import (
@@ -190,6 +192,13 @@ class RubricSpec(WordSpec, kw_only=True, frozen=True):
         if sum(one.worth for one in self.criteria.values()) < parse_written_number(self.full):
             raise ValueError("the criteria have fewer points than the part")
 
+    @property
+    def needed(self) -> int:
+        """How many criteria make up the points of the part: fewer where the best count."""
+        worth = sorted((one.worth for one in self.criteria.values()), reverse=True)
+        full = parse_written_number(self.full)
+        return next(n for n in range(1, len(worth) + 1) if sum(worth[:n]) >= full)
+
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
         """Return what is suggested of a text, for a person who decides.
 
@@ -223,12 +232,23 @@ class RubricSpec(WordSpec, kw_only=True, frozen=True):
         )
 
     def suggest(self, typed: str) -> Suggestion:
-        """Return which criteria a text meets, each with the clause that it goes by."""
+        """Return which criteria a text meets, each with the clause that it goes by.
+
+        It is cached: who marks a class looks at each text twice, for its marks and for the queue.
+        """
+        return _suggest(msgspec.json.encode(self), typed)
+
+    def look_for_criteria(self, typed: str) -> Suggestion:
+        """Return which criteria a text meets, searched anew."""
         subject = read_subject(tuple(map(tuple, self.synonyms)))
         text = Statement(typed, subject)
         read = {name: self._read_examples(name, subject) for name in self.criteria}
         examples = [example for listed in read.values() for example in listed]
-        text.know(examples)
+        wrong = {
+            name: [subject.read(text, "denied") for text in listed]
+            for name, listed in self.mistakes.items()
+        }
+        text.know(subject.collect_words(examples, [one for own in wrong.values() for one in own]))
         named = {name: read_words(one.about, subject) for name, one in self.criteria.items()}
         evidence = {
             name: text.find(listed, named[name], _list_others(named, name))
@@ -244,13 +264,10 @@ class RubricSpec(WordSpec, kw_only=True, frozen=True):
             quote = safe_echo(" ".join(text.quote(by).split()), 80) if by else ""
             findings.append(Finding(name, status, points, quote))
             spots |= set(text.spans(by)) if by and status in EARNING else set()
-        wrong = tuple(
+        mistakes = tuple(
             name
-            for name, listed in self.mistakes.items()
-            if any(
-                one.meaning == "denied"
-                for one in text.find(subject.read(t, "denied") for t in listed)
-            )
+            for name, listed in wrong.items()
+            if any(one.meaning == "denied" for one in text.find(listed))
         )
         earned = min(
             sum((f.points for f in findings), Fraction(0)), parse_written_number(self.full)
@@ -258,7 +275,7 @@ class RubricSpec(WordSpec, kw_only=True, frozen=True):
         return Suggestion(
             tuple(findings),
             min(earned, parse_written_number(self.full)),
-            wrong,
+            mistakes,
             text.touches(examples),
             tuple(sorted(spots)),
         )
@@ -284,6 +301,15 @@ class RubricSpec(WordSpec, kw_only=True, frozen=True):
     def list_ideas(self, lang: str) -> Mapping[str, str]:
         """Return the sentence of each criterion in a language, else in the first there is."""
         return self.ideas.get(lang) or next(iter(self.ideas.values()), {})
+
+
+@lru_cache(maxsize=4096)
+def _suggest(spec: bytes, typed: str) -> Suggestion:
+    """Return what is suggested of a text by a specification as JSON."""
+    return _decode(spec).look_for_criteria(typed)
+
+
+_decode = json_decoder(RubricSpec).decode
 
 
 def suggest_marks(spec: AnySpec, typed: str) -> Suggestion | None:
@@ -389,7 +415,8 @@ def ask(part: PartContext) -> AskedPart[RubricSpec]:
         synonyms=part.synonyms(used),
     )
     model = spec.show_in(next(iter(spec.ideas), ""))
-    lines = -(-len(model.split()) // WORDS_A_LINE)
+    said = len(model.split()) * spec.needed // len(criteria)
+    lines = -(-said // WORDS_A_LINE)
     return AskedPart(
         spec,
         InputControl("lines", lines=min(max(lines, FEWEST_LINES), MOST_LINES)),
@@ -408,7 +435,7 @@ FEW = 2
 
 def input_hints(spec: RubricSpec, lang: str) -> tuple[str, ...]:
     """Return the sentence on own words, as short as the criteria allow."""
-    count = len(spec.criteria)
+    count = spec.needed
     return (
         translate(lang, "ask.rubric")
         if count <= FEW

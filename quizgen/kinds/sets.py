@@ -13,6 +13,7 @@ from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.equalities import read_items
 from quizgen.grading.reading.lists import read_list
 from quizgen.grading.reading.numbers import ReadNumber
+from quizgen.grading.reading.spoken_values import separate_elements
 from quizgen.grading.rounding import format_key
 from quizgen.grading.spec import VectorSpec, matches_target
 from quizgen.grading.verdict import Verdict, correct, verdict_by_share, wrong
@@ -69,6 +70,7 @@ class SetSpec(VectorSpec, kw_only=True, frozen=True):
             return _judge(self, [])
         if self.letters:
             return _judge_with_letters(self, typed, options)
+        typed = separate_elements(typed)
         if not _ONE_COMMA.fullmatch(typed.strip()):
             return _judge(self, _elements(self, typed, None, options))
         return self._judge_one_comma(typed, options)

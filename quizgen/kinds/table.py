@@ -56,8 +56,7 @@ from quizgen.maths.units import format_unit
 from quizgen.maths.values import Value
 
 if TYPE_CHECKING:
-    from quizgen.bank.markdown import Inline
-    from quizgen.question.inlines import TextOrInlines
+    from quizgen.typeset.prose import Inline, TextOrInlines
 
 Cell = number.NumberSpec | quantity.QuantitySpec | angle.AngleSpec
 
@@ -312,7 +311,7 @@ def ask(part: PartContext) -> AskedPart[TableSpec]:
 
 def input_hints(spec: TableSpec, lang: str) -> tuple[TextOrInlines, ...]:
     """Return the sentences on names with their units, and on rounding."""
-    from quizgen.question.inlines import join_inlines, translate_inlines
+    from quizgen.typeset.prose import join_inlines, translate_inlines
 
     names = join_inlines(
         (_format_name_with_unit(name, spec.units.get(name, "")) for name in spec.values), ", "
@@ -323,8 +322,7 @@ def input_hints(spec: TableSpec, lang: str) -> tuple[TextOrInlines, ...]:
 
 def _format_name_with_unit(name: str, unit: str) -> tuple[Inline, ...]:
     """Return a name with its unit in brackets, if it has one."""
-    from quizgen.bank.markdown import PlainText
-    from quizgen.question.inlines import name_inline
+    from quizgen.typeset.prose import PlainText, name_inline
 
     return (
         (name_inline(name), PlainText(f" ({format_unit(unit)})")) if unit else (name_inline(name),)

@@ -49,7 +49,7 @@ from quizgen.maths.tree import Call, Expr
 from quizgen.maths.values import Value
 
 if TYPE_CHECKING:
-    from quizgen.question.inlines import TextOrInlines
+    from quizgen.typeset.prose import TextOrInlines
 
 _HINT = hint("ask.vector")
 

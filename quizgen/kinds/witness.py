@@ -67,7 +67,7 @@ from quizgen.maths.tree import Call, Expr, Num, substitute
 from quizgen.maths.units import format_unit
 
 if TYPE_CHECKING:
-    from quizgen.question.inlines import TextOrInlines
+    from quizgen.typeset.prose import TextOrInlines
 
 
 class Demand(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
@@ -418,7 +418,7 @@ def _iter_labelled_items(
     fronts, rest = split_prefix(source)
     if fronts:
         items, _ = read_list(rest.text, len(fronts), decimal)
-        yield from zip(fronts, items, strict=True)
+        yield from zip((front.text for front in fronts), items, strict=True)
         return
     inner, _ = strip_brackets(source)
     source = inner if inner.text[:1] == "(" else source

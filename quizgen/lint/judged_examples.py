@@ -11,6 +11,7 @@ from quizgen.bank.template import Template
 from quizgen.bank.variant import Variant
 from quizgen.core.diagnostics import Diagnostic, diagnose
 from quizgen.core.positions import Place
+from quizgen.grading.judging.statements import read_subject
 from quizgen.kinds.derivation import DerivationSpec
 from quizgen.kinds.grade import grade_answer
 from quizgen.kinds.rubric import RubricSpec, Status
@@ -72,7 +73,8 @@ def find_unsound_schemes(draws: Iterable[Variant]) -> Iterator[Diagnostic]:
                 continue
             before.append(written)
             place: Place = ("part", index, "answer")
-            for code, what in (*_misread_examples(spec), *_weak_models(spec)):
+            found = (*_misread_examples(spec), *_bare_examples(spec), *_weak_models(spec))
+            for code, what in found:
                 if what not in told:
                     told.add(what)
                     yield diagnose(code, one.template.file, f"seed {one.seed}: {what}", place)
@@ -91,6 +93,24 @@ def _misread_examples(spec: RubricSpec) -> Iterator[tuple[str, str]]:
                 status = next(f.status for f in spec.suggest(text).findings if f.name == name)
                 if status not in wanted:
                     yield "QG231", f"{name}: {text!r} is {status}, not {' or '.join(wanted)}"
+
+
+def _bare_examples(spec: RubricSpec) -> Iterator[tuple[str, str]]:
+    """Yield code and words for each example of scale words alone that may be of another criterion.
+
+    *Larger* is found wherever something is said to be larger.
+    """
+    subject = read_subject(tuple(map(tuple, spec.synonyms)))
+    read = {
+        name: [subject.read(text, "said") for text in (*one.accept, *one.half)]
+        for name, one in spec.criteria.items()
+    }
+    scales = {name: {scale for one in read[name] for scale in one.scales} for name in read}
+    for name, examples in read.items():
+        others = set[str]().union(*(scales[other] for other in scales if other != name))
+        for one in examples:
+            if one.is_bare and not others.isdisjoint(one.scales):
+                yield "QG324", f"{name}: {one.text!r}"
 
 
 def _weak_models(spec: RubricSpec) -> Iterator[tuple[str, str]]:

@@ -15,16 +15,6 @@ from functools import cached_property
 
 from quizgen.bank.bank import Bank
 from quizgen.bank.levels import EXAM
-from quizgen.bank.markdown import (
-    Block,
-    CodeBlock,
-    Emphasis,
-    Inline,
-    InlineCode,
-    ListBlock,
-    Paragraph,
-    TableBlock,
-)
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import FormulaError
 from quizgen.grading.spec import AnySpec
@@ -37,8 +27,18 @@ from quizgen.paper.paper import Paper
 from quizgen.paper.variants import asked_formulas
 from quizgen.question.compose import Question, QuestionKey
 from quizgen.question.figure import describe_question_figure
-from quizgen.question.inlines import TypesetMaths
 from quizgen.render.text import blocks_to_plain_text, inlines_to_plain_text
+from quizgen.typeset.prose import (
+    Block,
+    CodeBlock,
+    Emphasis,
+    Inline,
+    InlineCode,
+    ListBlock,
+    Paragraph,
+    TableBlock,
+    TypesetMaths,
+)
 
 DIGITS, WHOLE = 3, 4
 """Digits of a number, and of a whole one, that is not there by chance: zeros at the ends aside."""

@@ -11,13 +11,13 @@ from dataclasses import dataclass, replace
 from itertools import chain
 from math import inf, isfinite
 
-from quizgen.bank.markdown import Inline
 from quizgen.grading.diagnosis.numeric_slips import CLOSE
 from quizgen.grading.spec import WIDEST
 from quizgen.maths.constants import parse_exact
 from quizgen.maths.numbers import to_float
 from quizgen.maths.tolerance import Tolerance
 from quizgen.maths.values import Value
+from quizgen.typeset.prose import Inline
 
 # An interval is wider than our closed one by this factor, so that its ends are inside.
 BEYOND = 1.01

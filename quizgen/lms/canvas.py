@@ -45,8 +45,8 @@ from quizgen.lms.markup import (
 )
 from quizgen.lms.weighted_answers import weighted_answers
 from quizgen.locale import translate
-from quizgen.question.inlines import name_inline
 from quizgen.render.layouts import jinja_environment
+from quizgen.typeset.prose import name_inline
 
 _QUESTION_TYPES = {
     "number": "numerical",

@@ -14,7 +14,6 @@ from typing import ClassVar
 
 from msgspec import structs
 
-from quizgen.bank.markdown import Inline, PlainText
 from quizgen.core.decoding import convert
 from quizgen.grading.reading import bases
 from quizgen.grading.spec import AnySpec, NumericSpec, ScalarSpec, is_whole_number
@@ -45,6 +44,7 @@ from quizgen.maths.tolerance import Tolerance
 from quizgen.maths.values import Value
 from quizgen.question.compose import QuestionPart
 from quizgen.question.solution import PartSolution
+from quizgen.typeset.prose import Inline, PlainText
 
 # A sentence, or pieces of one.
 FeedbackText = tuple[Inline, ...]

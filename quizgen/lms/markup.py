@@ -18,7 +18,6 @@ from markupsafe import Markup
 from msgspec.structs import replace
 
 from quizgen import typeset
-from quizgen.bank.markdown import Block, Inline, PlainText
 from quizgen.bank.pictures import PictureFile
 from quizgen.core.errors import require_one_of
 from quizgen.figures import Figure
@@ -41,10 +40,10 @@ from quizgen.paper.paper import PaperItem
 from quizgen.question import html
 from quizgen.question.compose import QuestionPart
 from quizgen.question.html import HtmlDialect, display_mathml
-from quizgen.question.inlines import PlacedField, name_inline
 from quizgen.question.solution import PartSolution
 from quizgen.render.html import render_html_fragment
 from quizgen.render.text import inlines_to_plain_text
+from quizgen.typeset.prose import Block, Inline, PlacedField, PlainText, name_inline
 
 # Tries after which Moodle shows a hint.
 HINT_COUNT = 3

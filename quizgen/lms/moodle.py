@@ -19,7 +19,6 @@ from math import lcm
 import jinja2
 from markupsafe import Markup
 
-from quizgen.bank.markdown import PlainText
 from quizgen.figures import Figure
 from quizgen.lms.interactions import (
     ChoiceInteraction,
@@ -57,6 +56,7 @@ from quizgen.lms.markup import (
 from quizgen.lms.weighted_answers import weighted_answers, with_letter
 from quizgen.locale import translate
 from quizgen.render.layouts import jinja_environment
+from quizgen.typeset.prose import PlainText
 
 # Stands in a text until a field takes its place; no text has this character.
 _FIELD_MARK = Markup("\N{OBJECT REPLACEMENT CHARACTER}")

@@ -16,6 +16,8 @@ classes        the report of a marked exam
 tradeoff       the page of what accuracy costs
 web            the pages of ``quizgen serve``
 moving         their figures that move
+answers        words by which typed answers are read: `word_patterns` makes patterns of them
+statements     words that turn, join or compare what sentences say
 ============== ==================================================================
 
 A template has one ``<lang>.md``, too.
@@ -29,11 +31,11 @@ from __future__ import annotations
 import re
 import tomllib
 import unicodedata
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, ParamSpec, TypeVar, cast
 
 import msgspec
 
@@ -62,6 +64,12 @@ PLACES = [SHIPPED]
 
 _HEARD: list[str] = []
 """Languages that something is written in and no folder is about."""
+
+_FORGETTING: list[Callable[[], None]] = []
+"""What has functions forget the words that they have read."""
+
+P = ParamSpec("P")
+R = TypeVar("R")
 
 LAST = 1000
 """Place in lists of a language that does not say its own."""
@@ -106,8 +114,28 @@ def register_languages(langs: Iterable[str] = (), place: Path | None = None) -> 
     _HEARD.extend(dict.fromkeys(new))
     if place and place not in PLACES and place.is_dir():
         PLACES.append(place)
-        load_words.cache_clear()
-        get_language.cache_clear()
+        forget_words()
+
+
+def cache_words(make: Callable[P, R], most: int | None = None) -> Callable[P, R]:
+    """Return a function whose results are kept until the words of another language are added.
+
+    Parameters
+    ----------
+    make : callable
+        Of words or texts.
+    most : int, optional
+        Results that are kept at once; all of them if it is left out.
+    """
+    kept = lru_cache(maxsize=most)(make)
+    _FORGETTING.append(kept.cache_clear)
+    return cast("Callable[P, R]", kept)
+
+
+def forget_words() -> None:
+    """Have all words read again, as after a language has been added."""
+    for forget in (load_words.cache_clear, get_language.cache_clear, *_FORGETTING):
+        forget()
 
 
 def list_language_choices() -> tuple[str, ...]:

@@ -14,7 +14,6 @@ from msgspec.structs import replace
 
 from quizgen.bank.bank import Bank
 from quizgen.bank.levels import EXAM
-from quizgen.bank.markdown import Block, CodeBlock, Paragraph
 from quizgen.bank.metadata import pick_language
 from quizgen.bank.template import Template
 from quizgen.bank.variant import Variant
@@ -38,9 +37,10 @@ from quizgen.paper.selection import count_papers, select_templates, slot_levels,
 from quizgen.paper.variants import draw_variants, with_siblings
 from quizgen.question.compose import Question, QuestionKey, compose_variant, draw_instance
 from quizgen.question.data_files import iter_data_files
-from quizgen.question.inlines import PlacedPicture
+from quizgen.question.interpolation import PlacedPicture
 from quizgen.question.levels import effective_level
 from quizgen.question.mark_scheme import rescale_criteria
+from quizgen.typeset.prose import Block, CodeBlock, Paragraph
 
 ProgressCallback = Callable[[str], None]
 """Told the template of each question as it is done."""

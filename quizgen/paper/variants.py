@@ -10,7 +10,7 @@ from functools import lru_cache
 import msgspec
 
 from quizgen.bank.bank import Bank
-from quizgen.bank.markdown import PlainText, leaves
+from quizgen.bank.markdown import leaves
 from quizgen.bank.sampler import Sampler, sampler_for
 from quizgen.bank.template import Template
 from quizgen.bank.variant import SiblingContent, Variant, draw_variant, leading_digits
@@ -25,6 +25,7 @@ from quizgen.maths.tree import Expr, substitute
 from quizgen.maths.values import Value
 from quizgen.question.figure import has_coloured_figure
 from quizgen.question.part_context import ask_part, authored_answer
+from quizgen.typeset.prose import PlainText
 
 REDRAWS = 50
 """Tries to avoid the same numbers twice in one paper."""

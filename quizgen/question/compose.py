@@ -14,7 +14,6 @@ import msgspec
 from markupsafe import Markup
 
 from quizgen.bank.levels import EXAM
-from quizgen.bank.markdown import Block, Inline
 from quizgen.bank.template import Template
 from quizgen.bank.variant import Variant, draw_variant, reference_variant
 from quizgen.core.errors import BankError
@@ -31,12 +30,12 @@ from quizgen.maths.units import format_unit
 from quizgen.question.data_files import build_file_paragraphs
 from quizgen.question.figure import draw_question_figure
 from quizgen.question.html import blocks_to_html, inlines_to_html
-from quizgen.question.inlines import TypesetMaths, join_inlines, to_inlines
 from quizgen.question.interpolation import inlines_to_text
 from quizgen.question.levels import effective_level, load_level
 from quizgen.question.levels.contract import Choice, LevelPart
 from quizgen.question.localise import localise
 from quizgen.question.solution import Solution
+from quizgen.typeset.prose import Block, Inline, TypesetMaths, join_inlines, to_inlines
 
 
 class AnswerField(msgspec.Struct, frozen=True):

@@ -8,12 +8,11 @@ import io
 from collections.abc import Iterator
 from itertools import zip_longest
 
-from quizgen.bank.markdown import InlineCode, Paragraph
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import BankError
 from quizgen.core.untrusted import escape_csv_formula
 from quizgen.maths.numbers import MINUS
-from quizgen.question.inlines import translate_inlines
+from quizgen.typeset.prose import InlineCode, Paragraph, translate_inlines
 
 
 class DataFileLink(InlineCode, frozen=True):

@@ -10,23 +10,20 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from quizgen.bank.entries import Entry, Passage
-from quizgen.bank.markdown import (
+from quizgen.bank.markdown import fill_blocks, fill_inlines, parse_blocks, parse_inlines
+from quizgen.bank.metadata import pick_language
+from quizgen.core.errors import BankError
+from quizgen.question.formula_lines import typeset_inline
+from quizgen.typeset.leaves import list_leaf_names
+from quizgen.typeset.prose import (
     Block,
     Inline,
     LaidOutFormula,
     PictureLink,
     Slot,
     Unfilled,
-    fill_blocks,
-    fill_inlines,
-    parse_blocks,
-    parse_inlines,
+    typeset_layout,
 )
-from quizgen.bank.metadata import pick_language
-from quizgen.core.errors import BankError
-from quizgen.question.formula_lines import typeset_inline
-from quizgen.question.inlines import typeset_layout
-from quizgen.typeset.leaves import list_leaf_names
 
 
 def entry_blocks(entry: Entry, name: str, lang: str) -> tuple[Block, ...]:

@@ -29,7 +29,6 @@ from quizgen.bank.formulas import Piece, split_relations
 from quizgen.core.errors import BankError, FormulaError, RenderError
 from quizgen.maths.notation import format_tree, parse_formula
 from quizgen.maths.tree import Call, Expr, names_in
-from quizgen.question.inlines import TypesetMaths
 from quizgen.typeset.layout import SIGNS
 from quizgen.typeset.nodes import (
     ATOM,
@@ -42,6 +41,7 @@ from quizgen.typeset.nodes import (
     OperatorSign,
     Scripts,
 )
+from quizgen.typeset.prose import TypesetMaths
 
 Inside = Mapping[str, Piece]
 """Letter in a line to the piece it stands for."""

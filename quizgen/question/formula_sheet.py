@@ -10,12 +10,11 @@ from quizgen import typeset
 from quizgen.bank.bank import Bank
 from quizgen.bank.formulas import FormulaEntry, read_formulas, templates_by_formula
 from quizgen.bank.language_file import read_language_file
-from quizgen.bank.markdown import Block, Inline, PlainText
 from quizgen.core.errors import BankError
 from quizgen.figures import Figure, draw_figure
 from quizgen.question.entry_prose import entry_blocks, entry_inlines
 from quizgen.question.formula_lines import parse_formula_line
-from quizgen.question.inlines import TypesetMaths, join_inlines, name_inline
+from quizgen.typeset.prose import Block, Inline, PlainText, TypesetMaths, join_inlines, name_inline
 
 NOTES = ("about", "holds", "limits", "beware")
 """What is said about a formula, in the order in which it is said."""

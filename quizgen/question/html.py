@@ -14,11 +14,11 @@ from typing import NamedTuple
 from markupsafe import Markup
 
 from quizgen import typeset
-from quizgen.bank import markdown
 from quizgen.bank.pictures import PictureFile
 from quizgen.question.data_files import DataFileLink
-from quizgen.question.inlines import PlacedField, PlacedPicture, TypesetMaths
-from quizgen.question.interpolation import NBSP, unbreakable_groups
+from quizgen.question.interpolation import NBSP, PlacedPicture, unbreakable_groups
+from quizgen.typeset import prose
+from quizgen.typeset.prose import PlacedField, TypesetMaths
 
 
 class HtmlDialect(NamedTuple):
@@ -43,7 +43,7 @@ OURS = HtmlDialect(typeset.to_mathml, display_mathml)
 
 
 def inlines_to_html(
-    part: markdown.Inline | tuple[markdown.Inline, ...], lang: str, way: HtmlDialect = OURS
+    part: prose.Inline | tuple[prose.Inline, ...], lang: str, way: HtmlDialect = OURS
 ) -> Markup:
     """Return one inline, or a sentence of them, as HTML."""
     return Markup(_render_piece(part, lang, way))
@@ -51,7 +51,7 @@ def inlines_to_html(
 
 @singledispatch
 def _render_piece(
-    part: markdown.Inline | tuple[markdown.Inline, ...], lang: str, _way: HtmlDialect
+    part: prose.Inline | tuple[prose.Inline, ...], lang: str, _way: HtmlDialect
 ) -> str:
     """Return the HTML of an inline; each type of them registers what writes it.
 
@@ -61,14 +61,14 @@ def _render_piece(
 
 
 @_render_piece.register(tuple)
-def _render_inlines(parts: tuple[markdown.Inline, ...], lang: str, way: HtmlDialect) -> str:
+def _render_inlines(parts: tuple[prose.Inline, ...], lang: str, way: HtmlDialect) -> str:
     """Return the HTML of a sentence, with what may not be parted from a formula held to it."""
     if not any(isinstance(part, TypesetMaths) for part in parts):
         return "".join([_render_piece(part, lang, way) for part in parts])
     return "".join([_render_unbroken(group, lang, way) for group in unbreakable_groups(parts)])
 
 
-def _render_unbroken(group: tuple[markdown.Inline, ...], lang: str, way: HtmlDialect) -> str:
+def _render_unbroken(group: tuple[prose.Inline, ...], lang: str, way: HtmlDialect) -> str:
     """Return the HTML of pieces inside which no line may end.
 
     They are held by our style where there is one, else by blanks that do not break.
@@ -83,7 +83,7 @@ def _render_unbroken(group: tuple[markdown.Inline, ...], lang: str, way: HtmlDia
     return "".join(
         [
             _render_piece(part, lang, way).replace(" ", NBSP)
-            if isinstance(part, markdown.PlainText)
+            if isinstance(part, prose.PlainText)
             else _render_piece(part, lang, way)
             for part in group
         ]
@@ -100,7 +100,7 @@ def _escape_html(text: str) -> str:
 
 
 @_render_piece.register
-def _render_words(part: markdown.PlainText, _lang: str, _way: HtmlDialect) -> str:
+def _render_words(part: prose.PlainText, _lang: str, _way: HtmlDialect) -> str:
     """Return plain text, escaped."""
     return _escape_html(part.text)
 
@@ -112,7 +112,7 @@ def _render_maths(part: TypesetMaths, lang: str, way: HtmlDialect) -> str:
 
 
 @_render_piece.register
-def _render_code(part: markdown.InlineCode, _lang: str, _way: HtmlDialect) -> str:
+def _render_code(part: prose.InlineCode, _lang: str, _way: HtmlDialect) -> str:
     """Return program text in a sentence; a whole program keeps its lines."""
     first, *more = (_escape_html(line) for line in part.text.split("\n"))
     lines = (line.replace("  ", "\u00a0 ") for line in (first, *more))
@@ -127,7 +127,7 @@ def _render_data_file(part: DataFileLink, _lang: str, way: HtmlDialect) -> str:
 
 
 @_render_piece.register
-def _render_styled(part: markdown.Emphasis, lang: str, way: HtmlDialect) -> str:
+def _render_styled(part: prose.Emphasis, lang: str, way: HtmlDialect) -> str:
     """Return emphasised or strong text; the tag is the style's name."""
     return f"<{part.style}>{_render_piece(part.children, lang, way)}</{part.style}>"
 
@@ -158,7 +158,7 @@ def put_fields(page: str, fields: Mapping[str, str]) -> Markup:
 
 
 @singledispatch
-def _render_block(part: markdown.Block, lang: str, _way: HtmlDialect) -> str:
+def _render_block(part: prose.Block, lang: str, _way: HtmlDialect) -> str:
     """Return the HTML of a block; each type of them registers what writes it.
 
     Raises ``TypeError`` for a type without one.
@@ -167,20 +167,20 @@ def _render_block(part: markdown.Block, lang: str, _way: HtmlDialect) -> str:
 
 
 @_render_block.register
-def _render_paragraph(part: markdown.Paragraph, lang: str, way: HtmlDialect) -> str:
+def _render_paragraph(part: prose.Paragraph, lang: str, way: HtmlDialect) -> str:
     """Return a ``p`` element around the sentence."""
     return f"<p>{_render_piece(part.children, lang, way)}</p>"
 
 
 @_render_block.register
-def _render_code_block(part: markdown.CodeBlock, _lang: str, way: HtmlDialect) -> str:
+def _render_code_block(part: prose.CodeBlock, _lang: str, way: HtmlDialect) -> str:
     """Return a block of program text; a long line scrolls, also by keyboard."""
     scrolls = ' tabindex="0"' if way.ours else ""
     return f"<pre{scrolls}><code>{_escape_html(part.text)}</code></pre>"
 
 
 @_render_block.register
-def _render_list(part: markdown.ListBlock, lang: str, way: HtmlDialect) -> str:
+def _render_list(part: prose.ListBlock, lang: str, way: HtmlDialect) -> str:
     """Return a list; an item of one sentence has no paragraph around it."""
     tag = "ol" if part.ordered else "ul"
     items = "".join(
@@ -190,7 +190,7 @@ def _render_list(part: markdown.ListBlock, lang: str, way: HtmlDialect) -> str:
 
 
 @_render_block.register
-def _render_table(part: markdown.TableBlock, lang: str, way: HtmlDialect) -> str:
+def _render_table(part: prose.TableBlock, lang: str, way: HtmlDialect) -> str:
     """Return rows under a head; a wide table scrolls, also by keyboard."""
     head = "".join([_render_head_cell(cell, lang, way) for cell in part.head])
     rows = [[f"<td>{_render_piece(cell, lang, way)}</td>" for cell in cells] for cells in part.rows]
@@ -200,7 +200,7 @@ def _render_table(part: markdown.TableBlock, lang: str, way: HtmlDialect) -> str
     return f'<div class="scroll" tabindex="0">{table}</div>' if way.ours else table
 
 
-def _render_head_cell(cell: tuple[markdown.Inline, ...], lang: str, way: HtmlDialect) -> str:
+def _render_head_cell(cell: tuple[prose.Inline, ...], lang: str, way: HtmlDialect) -> str:
     """Return a head cell; a lone formula is spelled out for listeners.
 
     An empty cell is no head: a screen reader would announce it for every row.
@@ -216,10 +216,10 @@ def _render_head_cell(cell: tuple[markdown.Inline, ...], lang: str, way: HtmlDia
 
 
 def blocks_to_html(
-    parts: Sequence[markdown.Block], lang: str, way: HtmlDialect = OURS, *, tight: bool = False
+    parts: Sequence[prose.Block], lang: str, way: HtmlDialect = OURS, *, tight: bool = False
 ) -> Markup:
     """Return blocks as HTML; ``tight`` drops the paragraph around a single sentence."""
-    if tight and len(parts) == 1 and isinstance(parts[0], markdown.Paragraph):
+    if tight and len(parts) == 1 and isinstance(parts[0], prose.Paragraph):
         return inlines_to_html(parts[0].children, lang, way)
     made = "".join([_render_block(part, lang, way) for part in parts])
     return Markup(made)

@@ -8,30 +8,20 @@ from collections.abc import Iterable, Iterator
 from functools import lru_cache, partial
 from itertools import chain, groupby
 
+import msgspec
 from flint import fmpq
 
 from quizgen import typeset
 from quizgen.bank.markdown import (
     FIELD_MARK,
     TABLE_MARK,
-    Block,
     ConditionalSentence,
-    Emphasis,
-    Inline,
-    InlineFormula,
-    LaidOutFormula,
-    Paragraph,
-    PictureLink,
-    PlainText,
-    RoundedMarker,
-    Slot,
-    TableBlock,
-    Unfilled,
     fill_blocks,
     fill_inlines,
     fill_text,
     slot_names,
 )
+from quizgen.bank.pictures import PictureFile
 from quizgen.bank.rules import PART_LABELS
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import BankError
@@ -42,17 +32,28 @@ from quizgen.maths.numbers import MINUS, format_exact, format_rounded, to_float
 from quizgen.maths.tree import Expr
 from quizgen.maths.units import format_unit
 from quizgen.maths.values import Value, Values
-from quizgen.question.inlines import (
+from quizgen.typeset.leaves import LeafValue, fill_leaves, list_leaf_names, make_leaf_value
+from quizgen.typeset.nodes import MathRow, Node, Phrase
+from quizgen.typeset.prose import (
+    Block,
+    Emphasis,
+    Inline,
+    InlineFormula,
+    LaidOutFormula,
+    Paragraph,
+    PictureLink,
     PlacedField,
-    PlacedPicture,
+    PlainText,
+    RoundedMarker,
+    Slot,
+    TableBlock,
     TypesetLayout,
     TypesetMaths,
+    Unfilled,
     name_inline,
     to_inlines,
     typeset_layout,
 )
-from quizgen.typeset.leaves import LeafValue, fill_leaves, list_leaf_names, make_leaf_value
-from quizgen.typeset.nodes import MathRow, Node, Phrase
 
 NBSP = "\u00a0"
 LIST_SEPARATOR = "; "
@@ -63,6 +64,28 @@ SHORT = 16
 """Characters up to which a formula is held together with what stands beside it."""
 _TAIL = re.compile(r"[^ \n]*(?: [=≈<>≤≥≠] [^ \n]*)?")
 """What belongs to a formula: punctuation, and the value that it is said to have."""
+
+
+class PlacedPicture(msgspec.Struct, frozen=True):
+    """A picture in a sentence, and what it shows in words whose blanks are filled."""
+
+    picture: PictureFile
+    told: tuple[Inline, ...]
+
+    @property
+    def alt(self) -> str:
+        """Return what it shows in words, for those who cannot see it."""
+        return "".join(part.text for part in self.told)  # type: ignore[union-attr]
+
+    @property
+    def text(self) -> str:
+        """Return what stands in its place in plain text."""
+        return f"[{self.alt}]"
+
+    @property
+    def typed_text(self) -> str:
+        """Return the same as ``text``: nobody types a picture."""
+        return self.text
 
 
 class Interpolator:

@@ -13,19 +13,19 @@ from typing import Any, TypeVar
 import msgspec
 from msgspec.structs import replace
 
-from quizgen.bank.markdown import (
+from quizgen.bank.pictures import PictureFile
+from quizgen.figures import FieldPicture
+from quizgen.kinds.contract import InputControl
+from quizgen.locale import get_language, is_right_to_left, localise_numbers
+from quizgen.typeset.prose import (
     CodeBlock,
     InlineCode,
     InlineFormula,
     LaidOutFormula,
     PlainText,
     Slot,
+    TypesetMaths,
 )
-from quizgen.bank.pictures import PictureFile
-from quizgen.figures import FieldPicture
-from quizgen.kinds.contract import InputControl
-from quizgen.locale import get_language, is_right_to_left, localise_numbers
-from quizgen.question.inlines import TypesetMaths
 
 Localisable = TypeVar("Localisable")
 LEFT = (

@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
-from quizgen.bank.markdown import InlineFormula, PlainText, Slot, leaves
+from quizgen.bank.markdown import leaves
 from quizgen.bank.pools import condition_holds, matching_pairs, select_from_pool, selected_claims
 from quizgen.bank.rules import get_claim
 from quizgen.bank.sampler import shuffle
@@ -25,6 +25,7 @@ from quizgen.kinds.contract import (
     asked_quantities,
 )
 from quizgen.locale import localise_numbers
+from quizgen.locale.word_patterns import set_of_words
 from quizgen.maths.numbers import (
     format_exact,
     format_rounded,
@@ -40,6 +41,7 @@ from quizgen.question.interpolation import (
     inlines_to_text,
     join_unit,
 )
+from quizgen.typeset.prose import InlineFormula, PlainText, Slot
 
 _WORD = r"(?:[a-zäöüß-]{3,}|[\u0980-\u09ff]{3,})"
 _LAST_WORDS = re.compile(
@@ -312,7 +314,7 @@ class VariantPart(PartContext):
 def _is_listed(after: object, following: object) -> bool:
     """Return whether another name follows at once: what stands before is then said of both."""
     between = after.text.strip(" ,;") if isinstance(after, PlainText) else "?"
-    return isinstance(following, InlineFormula) and between in {"", "and", "ও", "এবং"}
+    return isinstance(following, InlineFormula) and between in {"", *set_of_words("and")}
 
 
 @lru_cache(maxsize=128)

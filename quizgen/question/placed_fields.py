@@ -6,10 +6,17 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 
-from quizgen.bank.markdown import Block, Emphasis, Inline, ListBlock, Paragraph, TableBlock
 from quizgen.kinds.contract import InputControl
-from quizgen.question.inlines import PlacedField
 from quizgen.question.interpolation import inlines_to_text
+from quizgen.typeset.prose import (
+    Block,
+    Emphasis,
+    Inline,
+    ListBlock,
+    Paragraph,
+    PlacedField,
+    TableBlock,
+)
 
 _SENTENCE = re.compile(r".*[.!?;।]\s", re.DOTALL)
 _BREAK = re.compile(r"[.!?;।](?:\s|$)")

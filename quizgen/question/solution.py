@@ -13,7 +13,6 @@ from typing import Any, NamedTuple
 
 import msgspec
 
-from quizgen.bank.markdown import Block, Inline, InlineCode, PlainText, TableBlock
 from quizgen.bank.variant import Variant
 from quizgen.figures import FieldPicture
 from quizgen.grading.spec import AnySpec, NumericSpec, ScalarSpec, VectorSpec
@@ -31,7 +30,6 @@ from quizgen.maths.numbers import format_rounded, parse_written_number, to_fract
 from quizgen.maths.tree import names_in
 from quizgen.maths.units import get_unit
 from quizgen.maths.values import map_numbers
-from quizgen.question.inlines import TextOrInlines, TypesetMaths, to_inlines
 from quizgen.question.interpolation import NBSP, Interpolator, inlines_to_text, join_unit
 from quizgen.question.worked_steps import (
     FORMULA,
@@ -42,6 +40,16 @@ from quizgen.question.worked_steps import (
     step_sides,
 )
 from quizgen.typeset import lay_out
+from quizgen.typeset.prose import (
+    Block,
+    Inline,
+    InlineCode,
+    PlainText,
+    TableBlock,
+    TextOrInlines,
+    TypesetMaths,
+    to_inlines,
+)
 
 
 def inlines_to_plain(shown: tuple[Inline, ...]) -> str:

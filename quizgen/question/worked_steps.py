@@ -12,7 +12,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from quizgen import typeset
-from quizgen.bank.markdown import Inline, PlainText, fill_inlines
+from quizgen.bank.markdown import fill_inlines
 from quizgen.bank.variant import Variant
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.notation import format_tree, pretty
@@ -27,9 +27,9 @@ from quizgen.maths.precision import working_precision
 from quizgen.maths.tree import Call, Expr, Num, Sym, names_in
 from quizgen.maths.units import format_unit
 from quizgen.question.entry_prose import typeset_slot
-from quizgen.question.inlines import TypesetMaths, name_inline
 from quizgen.question.interpolation import format_quantity, join_unit
 from quizgen.question.list_steps import write_out_lists
+from quizgen.typeset.prose import Inline, PlainText, TypesetMaths, name_inline
 
 FORMULA, NUMBERS, RESULT = "formula", "numbers", "result"
 

@@ -14,19 +14,9 @@ from typing import Any, NamedTuple, TypeVar
 
 import msgspec
 
-from quizgen.bank.markdown import (
-    Emphasis,
-    Inline,
-    InlineCode,
-    ListBlock,
-    Paragraph,
-    PlainText,
-    TableBlock,
-)
 from quizgen.figures import Figure
 from quizgen.question.compose import AnswerField, Question, QuestionPart
-from quizgen.question.inlines import PlacedField, PlacedPicture, name_inline
-from quizgen.question.interpolation import inlines_to_text
+from quizgen.question.interpolation import PlacedPicture, inlines_to_text
 from quizgen.question.solution import PartSolution
 from quizgen.render.layouts import count_working_rows
 from quizgen.render.text import blocks_to_plain_text
@@ -38,6 +28,17 @@ from quizgen.render.typst_document import (
     stack_languages,
     translate_all,
     typst_literal,
+)
+from quizgen.typeset.prose import (
+    Emphasis,
+    Inline,
+    InlineCode,
+    ListBlock,
+    Paragraph,
+    PlacedField,
+    PlainText,
+    TableBlock,
+    name_inline,
 )
 
 TEXT_MM = 155.0

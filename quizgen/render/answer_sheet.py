@@ -14,7 +14,6 @@ import msgspec
 from quizgen.locale import load_words, translate
 from quizgen.paper.paper import Paper
 from quizgen.question.compose import AnswerField
-from quizgen.question.inlines import name_inline
 from quizgen.render.typst_document import (
     compile_pdf,
     document_files,
@@ -22,6 +21,7 @@ from quizgen.render.typst_document import (
     replace_unprintable,
     typst_literal,
 )
+from quizgen.typeset.prose import name_inline
 
 VERSION, PAPER_VERSION = 1, 2
 """Of the layouts: the compact sheet, and a whole paper."""

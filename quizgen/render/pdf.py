@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
-from typing import Any
+from typing import Any, TypeVar
 
 import msgspec
 
@@ -49,10 +51,16 @@ SOLVED_SCALE = 0.66
 MOST_UNDER_A_COVER = 8
 """Questions of a paper whose first questions stand on the page of its cover."""
 
+POINTS_A_PAGE = 10
+"""Points for which a long paper has a page at most, beside that of its cover."""
+TIGHTER = ("0.8", "0.6", "0.4", "0.25")
+"""Shares of the room to work in that are tried where a paper has more pages."""
+_PAGE = re.compile(rb"/Type ?/Page\b")
+
 MOST_SOLVED_WIDTH = 80
 """Millimetres that a figure in solutions is wide at most."""
-MOST_UNDER_A_COVER = 8
-"""Questions of a paper whose first questions stand on the page of its cover."""
+
+Typeset = TypeVar("Typeset")
 
 
 class _TypstPaper:
@@ -396,7 +404,45 @@ def render_paper_pdf(paper: Paper, kind: str) -> bytes:
     RenderError
         If Typst refuses the document or a font is missing.
     """
-    return compile_pdf(typst_sources(paper, kind))
+    sources = typst_sources(paper, kind)
+    if kind != "exam":
+        return compile_pdf(sources)
+    return fit_to_pages(paper, sources, compile_pdf, lambda data: len(_PAGE.findall(data)))
+
+
+def fit_to_pages(
+    paper: Paper,
+    sources: dict[str, bytes],
+    typeset: Callable[[dict[str, bytes]], Typeset],
+    count_pages: Callable[[Typeset], int],
+) -> Typeset:
+    """Return a paper typeset with as much room to work in as its pages allow, or on the fewest.
+
+    What is left of a page is room, too, so that tight questions lose little. A paper in two
+    languages is as long as it is.
+
+    Parameters
+    ----------
+    paper : Paper
+    sources : dict of str to bytes
+        Typst files of the paper.
+    typeset : callable
+        Makes of them what is wanted.
+    count_pages : callable
+        Pages of that.
+    """
+    made = typeset(sources)
+    if len(paper.items) <= MOST_UNDER_A_COVER or len(paper.langs) > 1:
+        return made
+    pages, most = count_pages(made), math.ceil(paper.points / POINTS_A_PAGE) + 1
+    for share in TIGHTER:
+        if pages <= most:
+            break
+        layout = sources["paper.typ"].replace(b"#let tight = 1", f"#let tight = {share}".encode())
+        tight = typeset({**sources, "paper.typ": layout})
+        if count_pages(tight) < pages:
+            made, pages = tight, count_pages(tight)
+    return made
 
 
 def list_cover_facts(paper: Paper) -> list[tuple[str, str]]:

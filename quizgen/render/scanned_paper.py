@@ -5,7 +5,7 @@ Only the places are known here: what is asked and how it looks is that of any pa
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
 from quizgen.core.errors import RenderError
@@ -19,7 +19,7 @@ from quizgen.render.answer_sheet import (
     draw_page_code,
     iter_mark_places,
 )
-from quizgen.render.pdf import typst_sources
+from quizgen.render.pdf import fit_to_pages, typst_sources
 from quizgen.render.typst_document import compile_pdf, query_metadata, typst_literal
 
 MARK, INSET = 7.0, 7.0
@@ -58,13 +58,23 @@ def render_scanned_paper(paper: Paper, code_of: Callable[[int], str]) -> tuple[b
     )
     blank = b'<svg xmlns="http://www.w3.org/2000/svg" width="1" height="1"/>'
     empty = {f"code-{page}.svg": blank for page in range(1, MOST_PAGES + 1)}
-    rows = query_metadata({**sources, **empty}, "spot")
-    pages = max(row[2] for row in rows)
+    sources, rows = fit_to_pages(
+        paper,
+        sources,
+        lambda files: (files, query_metadata({**files, **empty}, "spot")),
+        lambda made: _count_pages(made[1]),
+    )
+    pages = _count_pages(rows)
     if pages > MOST_PAGES:
         raise RenderError(f"PDF: a paper of {pages} pages (at most {MOST_PAGES} can be scanned)")
     codes = {f"code-{page}.svg": draw_page_code(code_of(page)) for page in range(1, pages + 1)}
     places = SheetPlaces(PAPER_VERSION, pages, SIZE, marks, CODE, tuple(_iter_fields(rows)))
     return compile_pdf({**sources, **codes}), places
+
+
+def _count_pages(rows: Iterable[Sequence[Any]]) -> int:
+    """Return the pages of a document by what it says of its fields."""
+    return max(row[2] for row in rows)
 
 
 def _describe_marks(marks: Sequence[tuple[float, float, float]]) -> str:

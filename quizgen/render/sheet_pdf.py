@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from quizgen.bank.markdown import Block, Paragraph
 from quizgen.locale import translate
 from quizgen.question.formula_sheet import FormulaSheet, FormulaText, SheetFormula, SheetTopic
 from quizgen.render.typst_document import (
@@ -17,6 +16,7 @@ from quizgen.render.typst_document import (
     typst_equation,
     typst_literal,
 )
+from quizgen.typeset.prose import Block, Paragraph
 
 SCALE = 0.7
 """Size of a sketch in print: its letters of 10 pt are as small as those beside it."""

@@ -11,8 +11,8 @@ from fractions import Fraction
 from functools import lru_cache
 
 from quizgen import typeset
+from quizgen.core.shares import rescale_points
 from quizgen.locale import format_amount, translate
-from quizgen.question.inlines import name_inline
 from quizgen.question.mark_scheme import SideMark, mark_steps
 from quizgen.question.solution import (
     PartSolution,
@@ -33,6 +33,7 @@ from quizgen.render.typst_document import (
     typst_literal,
     typst_passage,
 )
+from quizgen.typeset.prose import name_inline
 
 
 def typeset_solved_part(one: PaperPart, drawing: str) -> str:
@@ -232,7 +233,7 @@ def _typeset_answer(solved: PartSolution, lang: str, points: Fraction) -> str:
     ideas = () if solved.scheme else solved.options
     options = [inlines_to_typst(option, lang) for option in ideas]
     if solved.shares:
-        shares = [format_quarters(points * share, lang) for share in solved.shares]
+        shares = [format_quarters(one, lang) for one in rescale_points(solved.shares, points)]
         options = [
             f"{option} #strong({typst_literal(share)});"
             for option, share in zip(options, shares, strict=True)

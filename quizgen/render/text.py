@@ -7,35 +7,36 @@ from collections.abc import Iterable, Iterator
 from functools import singledispatch
 from itertools import chain
 
-from quizgen.bank import markdown
 from quizgen.locale import format_amount, translate
 from quizgen.paper.paper import PaperItem
 from quizgen.question.compose import QuestionKey
 from quizgen.question.figure import describe_question_figure
-from quizgen.question.inlines import PlacedField, PlacedPicture, TypesetMaths
+from quizgen.question.interpolation import PlacedPicture
 from quizgen.question.solution import PartSolution, scheme_examples, scheme_title
+from quizgen.typeset import prose
+from quizgen.typeset.prose import PlacedField, TypesetMaths
 
 
 @singledispatch
-def inlines_to_plain_text(part: markdown.Inline | tuple[markdown.Inline, ...]) -> str:
+def inlines_to_plain_text(part: prose.Inline | tuple[prose.Inline, ...]) -> str:
     """Return inlines as plain text, formulas as Unicode can write them."""
     raise TypeError(type(part).__name__)
 
 
 @inlines_to_plain_text.register(tuple)
-def _join_inlines(parts: tuple[markdown.Inline, ...]) -> str:
+def _join_inlines(parts: tuple[prose.Inline, ...]) -> str:
     """Return several inlines as one text."""
     return "".join(map(inlines_to_plain_text, parts))
 
 
 @inlines_to_plain_text.register
-def _get_part_text(part: markdown.PlainText | markdown.InlineCode) -> str:
+def _get_part_text(part: prose.PlainText | prose.InlineCode) -> str:
     """Return words or code as they are."""
     return part.text
 
 
 @inlines_to_plain_text.register
-def _format_styled(part: markdown.Emphasis) -> str:
+def _format_styled(part: prose.Emphasis) -> str:
     """Return emphasised words without their emphasis."""
     return inlines_to_plain_text(part.children)
 
@@ -46,37 +47,37 @@ def _get_printed_text(part: TypesetMaths | PlacedPicture | PlacedField) -> str:
     return part.text
 
 
-def blocks_to_plain_text(parts: Iterable[markdown.Block]) -> Iterator[str]:
+def blocks_to_plain_text(parts: Iterable[prose.Block]) -> Iterator[str]:
     """Yield the lines of blocks."""
     return chain.from_iterable(map(_reject_block, parts))
 
 
 @singledispatch
-def _reject_block(part: markdown.Block) -> Iterable[str]:
+def _reject_block(part: prose.Block) -> Iterable[str]:
     """Raise ``TypeError``: no writer is registered for this type of block."""
     raise TypeError(type(part).__name__)
 
 
 @_reject_block.register
-def _format_paragraph(part: markdown.Paragraph) -> Iterable[str]:
+def _format_paragraph(part: prose.Paragraph) -> Iterable[str]:
     """Return a paragraph as one line."""
     return [inlines_to_plain_text(part.children)]
 
 
 @_reject_block.register
-def _format_code_block(part: markdown.CodeBlock) -> Iterable[str]:
+def _format_code_block(part: prose.CodeBlock) -> Iterable[str]:
     """Return the lines of code, indented."""
     return [f"    {line}" for line in part.text.splitlines()]
 
 
 @_reject_block.register
-def _format_list(part: markdown.ListBlock) -> Iterable[str]:
+def _format_list(part: prose.ListBlock) -> Iterable[str]:
     """Return one line for each item of a list."""
     return [f"  - {line}" for item in part.items for line in blocks_to_plain_text(item)]
 
 
 @_reject_block.register
-def _format_table(part: markdown.TableBlock) -> Iterable[str]:
+def _format_table(part: prose.TableBlock) -> Iterable[str]:
     """Return one line for each row of a table, its cells parted by bars."""
     return [" | ".join(map(inlines_to_plain_text, row)) for row in (part.head, *part.rows)]
 

@@ -14,12 +14,12 @@ from operator import attrgetter
 from typing import Any, Final
 
 from quizgen import typeset
-from quizgen.bank import markdown
 from quizgen.core.errors import RenderError
 from quizgen.locale import languages_in_script, translate
-from quizgen.question.inlines import PlacedField, PlacedPicture, TypesetMaths
-from quizgen.question.interpolation import NBSP, SHORT, unbreakable_groups
+from quizgen.question.interpolation import NBSP, SHORT, PlacedPicture, unbreakable_groups
 from quizgen.render import fonts
+from quizgen.typeset import prose
+from quizgen.typeset.prose import PlacedField, TypesetMaths
 
 _KNOWN = frozenset(map(chr, (*range(0x20, 0x7F), *range(0xA1, 0x180), *range(0x985, 0x9E4))))
 """Latin and Bangla, in which most names are written."""
@@ -45,38 +45,38 @@ def typst_literal(text: str) -> str:
 
 
 @singledispatch
-def inlines_to_typst(part: markdown.Inline | tuple[markdown.Inline, ...], lang: str) -> str:
+def inlines_to_typst(part: prose.Inline | tuple[prose.Inline, ...], lang: str) -> str:
     """Return inlines as Typst markup."""
     raise TypeError(f"no Typst for {type(part).__name__} ({lang})")
 
 
 @inlines_to_typst.register(tuple)
 @lru_cache(maxsize=1 << 13)
-def _join_inlines(parts: tuple[markdown.Inline, ...], lang: str) -> str:
+def _join_inlines(parts: tuple[prose.Inline, ...], lang: str) -> str:
     """Return several inlines as Typst markup, cached: most sentences occur in several papers."""
     groups = unbreakable_groups(_join_words(parts))
     return "".join(_keep_together(group, lang) for group in groups)
 
 
-def _join_words(parts: Iterable[markdown.Inline]) -> Iterator[markdown.Inline]:
+def _join_words(parts: Iterable[prose.Inline]) -> Iterator[prose.Inline]:
     """Yield inlines with the words side by side as one, numbers tied to their units.
 
     What was filled in is read together with what stands around it.
     """
-    for is_words, run in groupby(parts, key=lambda part: isinstance(part, markdown.PlainText)):
+    for is_words, run in groupby(parts, key=lambda part: isinstance(part, prose.PlainText)):
         if is_words:
-            yield markdown.PlainText(_TIED.sub(_tie, "".join(map(attrgetter("text"), run))))
+            yield prose.PlainText(_TIED.sub(_tie, "".join(map(attrgetter("text"), run))))
         else:
             yield from run
 
 
-def _keep_together(group: tuple[markdown.Inline, ...], lang: str) -> str:
+def _keep_together(group: tuple[prose.Inline, ...], lang: str) -> str:
     """Return inlines as Typst markup between which no line ends, nor within a short formula."""
     body = "".join(inlines_to_typst(part, lang) for part in group)
     return f"#box[{body}];" if len(group) > 1 or _is_short_line(group[0]) else body
 
 
-def _is_short_line(part: markdown.Inline) -> bool:
+def _is_short_line(part: prose.Inline) -> bool:
     """Return whether a piece is a formula that is short, and that a line may end in."""
     return (
         isinstance(part, TypesetMaths)
@@ -86,7 +86,7 @@ def _is_short_line(part: markdown.Inline) -> bool:
 
 
 @inlines_to_typst.register
-def _format_words(part: markdown.PlainText, _lang: str) -> str:
+def _format_words(part: prose.PlainText, _lang: str) -> str:
     """Return words as Typst markup, with a blank of the width of a word where they have a gap."""
     said = [f"#{typst_literal(text)};" if text else "" for text in GAP.split(part.text)]
     return "#gap;".join(said)
@@ -104,14 +104,14 @@ def _format_maths(part: TypesetMaths, lang: str) -> str:
 
 
 @inlines_to_typst.register
-def _format_code(part: markdown.InlineCode, _lang: str) -> str:
+def _format_code(part: prose.InlineCode, _lang: str) -> str:
     """Return inline code as Typst markup; a whole program is a block."""
     block = "block: true, " if "\n" in part.text else ""
     return f"#raw({block}{typst_literal(part.text)});"
 
 
 @inlines_to_typst.register
-def _format_styled(part: markdown.Emphasis, lang: str) -> str:
+def _format_styled(part: prose.Emphasis, lang: str) -> str:
     """Return emphasised words as Typst markup."""
     name = "emph" if part.style == "em" else "strong"
     return f"#{name}[{inlines_to_typst(part.children, lang)}];"
@@ -172,38 +172,38 @@ def typst_equation(maths: TypesetMaths, lang: str, *, block: bool) -> str:
     return f"#math.equation(alt: {spoken}, block: {str(block).lower()}, {body});"
 
 
-def blocks_to_typst(parts: Iterable[markdown.Block], lang: str) -> str:
+def blocks_to_typst(parts: Iterable[prose.Block], lang: str) -> str:
     """Return blocks as Typst markup."""
     return "\n\n".join(_reject_block(part, lang) for part in parts)
 
 
 @singledispatch
-def _reject_block(part: markdown.Block, lang: str) -> str:
+def _reject_block(part: prose.Block, lang: str) -> str:
     """Raise ``TypeError``: no writer is registered for this type of block."""
     raise TypeError(f"no Typst for {type(part).__name__} ({lang})")
 
 
 @_reject_block.register
-def _format_paragraph(part: markdown.Paragraph, lang: str) -> str:
+def _format_paragraph(part: prose.Paragraph, lang: str) -> str:
     """Return a paragraph as Typst markup."""
     return typst_passage(inlines_to_typst(part.children, lang))
 
 
 @_reject_block.register
-def _format_code_block(part: markdown.CodeBlock, _lang: str) -> str:
+def _format_code_block(part: prose.CodeBlock, _lang: str) -> str:
     """Return a block of code as Typst markup."""
     return f"#raw({typst_literal(part.text)}, block: true);"
 
 
 @_reject_block.register
-def _format_list(part: markdown.ListBlock, lang: str) -> str:
+def _format_list(part: prose.ListBlock, lang: str) -> str:
     """Return a list as Typst markup."""
     name = "enum" if part.ordered else "list"
     return f"#{name}({', '.join(f'[{blocks_to_typst(item, lang)}]' for item in part.items)});"
 
 
 @_reject_block.register
-def _format_table(part: markdown.TableBlock, lang: str) -> str:
+def _format_table(part: prose.TableBlock, lang: str) -> str:
     """Return a table as Typst markup."""
     cells = [cell for row in (part.head, *part.rows) for cell in row]
     head = ", ".join(f"[{inlines_to_typst(cell, lang)}]" for cell in part.head)

@@ -21,11 +21,11 @@ TIGHT = frozenset({"deg", "°"})
 """Units set without a space after the number."""
 
 _PART = re.compile(
-    r"(?P<sign>[*/·]?)(?P<name>e[-⁻]|[^*/·^⁻⁰-⁹²³]+)(?:\^?(?P<power>-?\d|⁻?[²³¹⁰⁴-⁹]))?"
+    r"(?P<sign>[*/·]?)(?P<name>[kMG]?e[-⁻]|[^*/·^⁻⁰-⁹²³]+)(?:\^?(?P<power>-?\d|⁻?[²³¹⁰⁴-⁹]))?"
 )
 
 
-_NAME = re.compile(r"[^\W\d_]+|e-|°[CF]?|[%‰€$£৳1]")
+_NAME = re.compile(r"[^\W\d_]+|[kMG]?e-|°[CF]?|[%‰€$£৳1]")
 
 
 class UnitPart(NamedTuple):

@@ -18,9 +18,9 @@ from quizgen.core.decoding import decode_json
 from quizgen.locale import translate
 from quizgen.question.formula_sheet import NOTES, FormulaSheet, SheetFormula, compose_sheet
 from quizgen.question.html import blocks_to_html, display_to_html, inlines_to_html
-from quizgen.question.inlines import TypesetMaths
 from quizgen.render import render_sheet
 from quizgen.render.html import sheet_css
+from quizgen.typeset.prose import TypesetMaths
 from quizgen.web.moving import MovingView, view_formula_figure
 from quizgen.web.question_view import Html
 from quizgen.web.state import ServerState

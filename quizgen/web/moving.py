@@ -21,7 +21,7 @@ from quizgen.bank.variant import Variant
 from quizgen.locale import fallback_language, get_language, load_words
 from quizgen.maths.numbers import to_float
 from quizgen.question.html import inlines_to_html
-from quizgen.question.inlines import name_inline
+from quizgen.typeset.prose import name_inline
 
 NUMBERS = (1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0, 22.0, 32.0)
 """F-numbers of a ring, each a stop from the next."""

@@ -12,23 +12,23 @@ from starlette.routing import Route
 
 from quizgen.bank.formulas import read_formulas, templates_by_formula
 from quizgen.bank.language_file import read_language_file
-from quizgen.bank.markdown import (
-    Inline,
-    InlineFormula,
-    LaidOutFormula,
-    PlainText,
-    Unfilled,
-    fill_inlines,
-)
+from quizgen.bank.markdown import fill_inlines
 from quizgen.core.errors import StoreError
 from quizgen.practice.agenda import Agenda, Mastery
 from quizgen.practice.scheduler import NAMED, ReviewCard
 from quizgen.question.entry_prose import entry_inlines, typeset_slot
 from quizgen.question.html import inlines_to_html
-from quizgen.question.inlines import typeset_layout
 from quizgen.store.archive import read_archive
 from quizgen.typeset.leaves import LeafValue, fill_leaves, list_leaf_names
 from quizgen.typeset.nodes import Phrase
+from quizgen.typeset.prose import (
+    Inline,
+    InlineFormula,
+    LaidOutFormula,
+    PlainText,
+    Unfilled,
+    typeset_layout,
+)
 from quizgen.web.forms import field_text, read_form, read_upload
 from quizgen.web.question_view import Html
 from quizgen.web.state import ServerState

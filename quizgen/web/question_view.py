@@ -14,7 +14,6 @@ import msgspec
 
 from quizgen.bank.bank import Bank
 from quizgen.bank.levels import EXAM, GUIDED
-from quizgen.bank.markdown import Block, Inline
 from quizgen.core.errors import BlueprintError
 from quizgen.figures import FieldPicture
 from quizgen.grading.spec import AnySpec
@@ -38,7 +37,6 @@ from quizgen.question.compose import (
 from quizgen.question.figure import draw_marked_figure
 from quizgen.question.formula_sheet import cite_formula
 from quizgen.question.html import blocks_to_html, chain_to_html, inlines_to_html
-from quizgen.question.inlines import name_inline
 from quizgen.question.interpolation import inlines_to_text
 from quizgen.question.levels import effective_level
 from quizgen.question.solution import (
@@ -48,6 +46,7 @@ from quizgen.question.solution import (
     scheme_examples,
     scheme_title,
 )
+from quizgen.typeset.prose import Block, Inline, name_inline
 from quizgen.web.moving import MovingView, find_moving_figure
 
 _MATHS = re.compile("</?math[^>]*>")

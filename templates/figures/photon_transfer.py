@@ -21,7 +21,8 @@ def draw(ax: Any, values: Values, *, quiz: bool) -> None:
     full, low, high = values["mu_s"], values["v_0"], values["v_s"]
     means = [full * step / _COUNT for step in range(_COUNT + 1)]
     variances = [low + (high - low) * step / _COUNT for step in range(_COUNT + 1)]
-    ax.set(xlim=(0, full * 1.25), ylim=(0, values["top"]), xlabel=r"$\mu$", ylabel=r"$\sigma^2$")
+    ax.set(xlim=(0, full * 1.25), ylim=(0, values["top"]), xlabel=r"$\mu$")
+    ax.set_ylabel(r"$\sigma^2$", rotation=0, va="bottom", y=1.03)
     ax.set_xticks([full * step / 4 for step in range(6)])
     ax.set_yticks([values["top"] * step / 10 for step in range(11)])
     ax.grid(visible=True, color="rule", linewidth=0.4)

@@ -7,26 +7,18 @@ import pytest
 
 from quizgen.bank import markdown
 from quizgen.bank.bank import Bank
-from quizgen.bank.markdown import (
-    InlineFormula,
-    LaidOutFormula,
-    LanguageFile,
-    fill_inlines,
-    leaves,
-    parse_blocks,
-    parse_inlines,
-)
+from quizgen.bank.markdown import LanguageFile, fill_inlines, leaves, parse_blocks, parse_inlines
 from quizgen.bank.variant import draw_variant
 from quizgen.core.errors import BankError
 from quizgen.maths.notation import parse_formula
 from quizgen.paper.paper import single_question_paper
 from quizgen.question.compose import compose_variant
 from quizgen.question.entry_prose import typeset_slot
-from quizgen.question.inlines import typeset_layout
 from quizgen.question.interpolation import Interpolator, inlines_to_text
 from quizgen.question.localise import localise
 from quizgen.render import fonts, render_paper
 from quizgen.render.text import blocks_to_plain_text
+from quizgen.typeset.prose import InlineFormula, LaidOutFormula, typeset_layout
 
 TEMPLATE = """topic = "example"
 tier = "A"

@@ -9,9 +9,9 @@ import pytest
 from anki.collection import ImportAnkiPackageOptions, ImportAnkiPackageRequest
 from sweep import spread
 
-from quizgen.bank.markdown import Paragraph, PlainText
 from quizgen.cards import apkg, build_deck, note_types
 from quizgen.cards.apkg import write_apkg
+from quizgen.typeset.prose import Paragraph, PlainText
 
 GOOD = 3
 

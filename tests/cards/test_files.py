@@ -20,12 +20,12 @@ from xml.etree import ElementTree as ET
 import pytest
 from click.testing import CliRunner
 
-from quizgen.bank.markdown import Paragraph, PlainText
 from quizgen.cards import build_deck
 from quizgen.cards.delimited import COLUMNS, HEADER, write_csv, write_tsv
 from quizgen.cards.update_versions import raise_versions
 from quizgen.cards.versions import BASE, STEP, modification_time
 from quizgen.cli.main import root_group
+from quizgen.typeset.prose import Paragraph, PlainText
 
 ROOT = Path(__file__).parent.parent.parent
 SCRIPT = """

@@ -73,7 +73,8 @@ def test_the_mistake_is_on_the_front_and_the_right_way_on_the_back(key, blueprin
     assert "coordinates are exchanged" in text(note, "Back")
     assert "অদলবদল" in text(note, "Back bn")
     right = part_of(key, "point-to-image-plane")["spec"]["values"]
-    assert "; ".join(right).replace("-", "−") in text(note, "Back")
+    two = "; ".join(f"{float(value):.2f}" for value in right)
+    assert two.replace("-", "−") in text(note, "Back")
     assert "frac" in text(note, "Work")
     assert note.media()
 

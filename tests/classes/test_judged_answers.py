@@ -10,6 +10,7 @@ from made import made, run
 from quizgen.classes import grading_run, manual_grading
 from quizgen.classes.grading_history import GradingHistory
 from quizgen.classes.judged_answers import FILE
+from quizgen.classes.marking import AnswerIndex
 
 ROWS = [("101", "Ada", "en"), ("102", "Ben", "en")]
 
@@ -51,6 +52,27 @@ def test_what_is_as_it_was_is_judged_once_and_rulings_hold_all_the_same(
     assert judged == []
     given = [part for part in parts(folder, "101") if part.id == "1b"]
     assert [(part.marks, part.by.split()[0]) for part in given] == [(given[0].points, "give")]
+
+
+def seen_on_page(folder) -> dict[str, str]:
+    """What the page of markers says of each group of answers."""
+    cards = [card for listed in AnswerIndex(folder).items.values() for card in listed]
+    return {case.answer.group: case.seen for card in cards for case in card.cases}
+
+
+def test_the_page_of_markers_judges_nothing_anew_decided_or_not(folder, monkeypatch):
+    before = seen_on_page(folder)
+    one, *rest = sorted(before)
+    assert rest
+    queue = (folder / "decisions.csv").read_text("utf-8-sig")
+    (row,) = [line for line in queue.splitlines() if line.endswith(one)]
+    decided = f"{row.removesuffix(',,,,,' + one)},0,,,,{one}"
+    (folder / "decisions.csv").write_text(queue.replace(row, decided), "utf-8")
+    monkeypatch.setattr(manual_grading, "_build_review_case", None)
+    run("class", "mark", folder)
+    run("class", "mark", folder)
+    assert one not in (folder / "decisions.csv").read_text("utf-8-sig")
+    assert seen_on_page(folder) == before
 
 
 def test_without_the_file_and_with_a_forged_one_the_marks_are_the_same(folder, judged):

@@ -349,6 +349,8 @@ def hostile_files(root) -> dict[str, str]:
     with pikepdf.new() as locked:
         locked.add_blank_page()
         locked.save(root / "locked.pdf", encryption=pikepdf.Encryption(owner="a", user="b"))
+    with pikepdf.new() as bare:
+        bare.save(root / "bare.pdf")
     with pikepdf.new() as vast:
         vast.add_blank_page(page_size=(14_000, 14_000))
         image = vast.make_stream(b"\0" * 10, Type=pikepdf.Name.XObject, Subtype=pikepdf.Name.Image, Width=90_000,
@@ -362,6 +364,7 @@ def hostile_files(root) -> dict[str, str]:
         "cut.jpg": "is damaged (Truncated", "large.png": "more than 120 million pixels", "wide.png": "more than 120 million pixels",
         "text.pdf": "is no sound PDF", "text.jpg": "is no sound picture", "notes.docx": "is no picture of a page",
         "empty.tif": "is no sound picture", "folder.pdf": "is no file", "pipe.png": "is no file", "locked.pdf": "is locked by a password",
+        "bare.pdf": "is no sound PDF",  # right after it: pdfium keeps its last error
         "vast.pdf": "more than 120 million pixels", "long.tif": "has 2 pages", "gone.pdf": "No such file",
     }  # fmt: skip
 

@@ -8,7 +8,7 @@ import pytest
 from flint import fmpq
 from sweep import together
 
-from quizgen.grading.diagnosis.mutations import mutate_formula
+from quizgen.grading.diagnosis.slip_search import mutate_formula
 from quizgen.grading.feedback import load_sentences
 from quizgen.grading.options import QuestionContext
 from quizgen.kinds.grade import grade_answer

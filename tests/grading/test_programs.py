@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import json
+import os
+import signal
 import subprocess
 import sys
 from fractions import Fraction
@@ -272,19 +275,42 @@ def test_a_process_that_is_locked_can_do_nothing():
         "memory": "bytearray(2**30)",
     }
     script = (
-        "import ctypes, os, sys, socket\n"
+        "import ctypes, json, os, sys, socket\n"
         f"sys.path.insert(0, {str(programs.RUNNER.parent)!r})\n"
-        "import program_runner\nprogram_runner.lock()\n"
-        f"for name, text in {tries!r}.items():\n"
-        "    try:\n        eval(text)\n    except (OSError, MemoryError):\n        continue\n"
-        "    os.write(1, name.encode() + b' ')\n"
-        "gained = b'' if ctypes.CDLL(None).prctl(39, 0, 0, 0, 0) else b'privileges'\n"
-        "os.write(1, gained)\n"
+        "import program_runner\n"
+        "def attack(np, job):\n"
+        "    program_runner.lock()\n"
+        "    done = []\n"
+        f"    for name, text in {tries!r}.items():\n"
+        "        try:\n            eval(text)\n        except (OSError, MemoryError):\n"
+        "            continue\n"
+        "        done.append(name)\n"
+        "    for number in range(64):\n"
+        "        try:\n            os.fstat(number)\n        except OSError:\n"
+        "            continue\n"
+        "        done.append(number)\n"
+        "    gained = ctypes.CDLL(None).prctl(39, 0, 0, 0, 0) == 0\n"
+        "    return [*done, *['privileges'] * gained]\n"
+        "program_runner.judge_job = attack\n"
+        "print(program_runner.fork_job(None, b'').decode())\n"
     )
     done = subprocess.run(
         [sys.executable, "-I", "-c", script], capture_output=True, env={}, check=True
     )
-    assert done.stdout == b""
+    assert json.loads(done.stdout) == [1], "only the pipe to its parent is open"
+
+
+@linux
+def test_programs_go_on_after_the_process_that_runs_them_has_ended():
+    right = SPEC["solution"]
+    assert grade_answer(SPEC, f"{right}\n# one").credit == 1
+    (runner,) = programs._IDLE
+    os.kill(runner._process.pid, signal.SIGKILL)
+    runner._process.wait()
+    assert grade_answer(SPEC, f"{right}\n# two").credit == 1
+    assert grade_answer(SPEC, f"{right}\n# three").credit == 1
+    (other,) = programs._IDLE
+    assert other is not runner
 
 
 @linux

@@ -140,7 +140,7 @@ def test_errors_point_into_what_was_typed(typed, column):
         ("table", "V = 1; S = 1/0", 12),
         ("table", "V = 1; S = ab", 12),
         ("table", "V = 1; S = 2 foo", 14),
-        ("table", "(V, T) = (1, 2)", 14),
+        ("table", "(V, T) = (1, 2)", 5),
     ],
 )
 def test_what_is_wrong_with_one_of_several_values_is_said_where_it_stands(kind, typed, column):

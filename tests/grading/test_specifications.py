@@ -49,7 +49,7 @@ FULL = [
      "up_to": "constant", "calls": {"x": "f(n)"}},
     {"kind": "set", "values": ["1"], "letters": ["a", "b"], "exact": True},
     {"kind": "equation", "value": "x = 2*y", "symbols": ["x", "y"], "traps": {"half": "x = y"}},
-    {"kind": "complex", "parts": ["1", "-2"], "form": "polar", "rel": "0.01", "traps": {"half": ["1", "2"]}},
+    {"kind": "complex", "parts": ["1", "-2"], "form": "polar", "rel": "0.01", "unit": "V", "traps": {"half": ["1", "2"]}},
     {"kind": "matrix", "entries": [["1", "2"], ["3", "1/4"]], "decimals": 2, "traps": {"half": [["1", "2"]]}},
     {"kind": "vector", "components": ["1", "2"], "up_to": "scale", "rel": "0.01", "traps": {"half": ["1", "1"]}},
     {"kind": "choice", "options": ["a", "b"], "said": [["c", "d"]], "correct": [2],

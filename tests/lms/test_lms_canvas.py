@@ -11,7 +11,6 @@ from xml.etree import ElementTree as ET
 import pytest
 from msgspec.structs import replace
 
-from quizgen.bank.markdown import PlainText
 from quizgen.lms.canvas import canvas_files, canvas_questions, write_canvas
 from quizgen.lms.interactions import (
     ChoiceInteraction,
@@ -24,6 +23,7 @@ from quizgen.lms.interactions import (
 )
 from quizgen.lms.items import ExportItem
 from quizgen.lms.markup import to_course_html
+from quizgen.typeset.prose import PlainText
 
 Q = "{http://www.imsglobal.org/xsd/ims_qtiasiv1p2}"
 CP = "{http://www.imsglobal.org/xsd/imsccv1p1/imscp_v1p1}"

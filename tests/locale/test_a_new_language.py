@@ -16,7 +16,7 @@ from types import SimpleNamespace
 import pytest
 from pseudo import LANG, accented, write_bank, write_language
 
-from quizgen import figures, locale, typeset
+from quizgen import figures, locale, mark_part, typeset
 from quizgen.bank.bank import builtin_bank
 from quizgen.locale import list_languages, load_words
 from quizgen.maths.notation import parse_formula
@@ -117,6 +117,62 @@ def test_marks_come_with_messages_in_the_language(place, paper):
     assert all(("á" in p["message"] or "é" in p["message"]) for p in parts if p["message"])
 
 
+ESPERANTO = """
+[letters]
+nigraj = "b"
+blankaj = "w"
+"senŝanĝaj" = "0"
+
+[said]
+yellow = ["flava"]
+
+[around]
+before = ["la respondo estas"]
+
+[numbers]
+counted = ["nul", "unu", "du", "tri", "kvar", "kvin", "ses", "sep", "ok", "naŭ", "dek"]
+larger = ["14 dek kvar"]
+multiples = ["1000 mil"]
+
+[reading]
+and = ["kaj"]
+point = ["komo"]
+"""
+"""Words with which answers are read, and nothing else of the language but its name."""
+
+
+@pytest.mark.parametrize(
+    ("question", "part", "typed", "meant"),
+    [
+        ("rolling-shutter-skew", "a", "la respondo estas dek kvar komo kvar", "14.4"),
+        ("rgb-to-cmyk", "c", "flava", "yellow"),
+        (
+            "salt-and-pepper-counts", "a",
+            "nigraj 16 mil, blankaj 16 mil kaj senŝanĝaj 608 mil", "16000; 16000; 608000",
+        ),
+    ],
+)  # fmt: skip
+def test_answers_are_read_in_words_of_the_language(
+    tmp_path, monkeypatch, question, part, typed, meant
+):
+    def mark(text):
+        template = builtin_bank().template(question)
+        return mark_part(template, text, part=part, seed=41, lang="en")
+
+    assert not mark(typed).is_graded
+    (tmp_path / "eo").mkdir()
+    (tmp_path / "eo" / "language.toml").write_text('name = "Esperanto"\n', encoding="utf-8")
+    (tmp_path / "eo" / "answers.toml").write_text(ESPERANTO, encoding="utf-8")
+    monkeypatch.setattr(locale, "PLACES", [*locale.PLACES])
+    try:
+        locale.register_languages(place=tmp_path)
+        assert mark(typed).verdict == mark(meant).verdict == "correct"
+    finally:
+        monkeypatch.undo()
+        locale.forget_words()
+    assert not mark(typed).is_graded
+
+
 def test_practice_speaks_the_language(place):
     run = quizgen(place, "practice", "--bank", "bank", "--trust", "--lang", LANG, "--count", "1", "--seed", "3",
                   typed="?\n" * 60)  # fmt: skip
@@ -169,7 +225,7 @@ def test_every_language_has_every_file_and_every_word(lang):
 
     for path in (ROOT / "quizgen" / "locale" / "en").glob("*.toml"):
         # Speech: what is not called as written; words of this language that answers in English hold.
-        open_tables = ("letters.", "greek.", "names.", "said.", "same.")
+        open_tables = ("letters.", "greek.", "names.", "said.", "same.", "functions.")
         english, other = (
             {
                 key

@@ -193,7 +193,7 @@ def test_the_trial_exam_is_the_chapters_ten_points(bank):
 def test_the_reference_paper_is_the_notes_own(bank):
     paper = build_reference_paper(bank, load_blueprint("mock"), "en")
     answers = {item.keys[0].template: item.keys[0].solution.parts for item in paper.items}
-    assert answers["point-to-image-plane"][0].answer == "(4; 6)"
+    assert answers["point-to-image-plane"][0].answer == "(4.00; 6.00)"
     assert answers["thin-lens-image-distance"][0].answer.startswith("200/3 mm")
     assert answers["point-to-pixel"][0].answer.startswith("(440; 160)")
     assert rebuild_paper(bank, paper.code).code == paper.code

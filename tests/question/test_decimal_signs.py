@@ -11,7 +11,6 @@ import pytest
 from sweep import together
 
 from quizgen.bank.bank import Bank, builtin_bank
-from quizgen.bank.markdown import InlineCode, Paragraph, PlainText
 from quizgen.bank.variant import draw_variant
 from quizgen.figures import FieldPicture, draw_figure
 from quizgen.figures.alt_text import strip_mathtext
@@ -23,12 +22,12 @@ from quizgen.paper.grade_report import format_table
 from quizgen.paper.grading import grade_paper
 from quizgen.paper.paper import single_question_paper
 from quizgen.question.compose import compose_question
-from quizgen.question.inlines import TypesetMaths
 from quizgen.question.localise import localise
 from quizgen.render import render_paper
 from quizgen.render.text import blocks_to_plain_text, inlines_to_plain_text
 from quizgen.typeset import fence, lay_out_name, number, to_latex, to_mathml, to_speech, to_typst
 from quizgen.typeset.nodes import Func, Word
+from quizgen.typeset.prose import InlineCode, Paragraph, PlainText, TypesetMaths
 
 FILTERING = Bank(Path(__file__).parents[2] / "examples" / "filtering", trusted=True)
 

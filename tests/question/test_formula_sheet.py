@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 
 from quizgen.bank.bank import Bank
-from quizgen.bank.markdown import PlainText
 from quizgen.cards.checks import check_cards
 from quizgen.core.errors import BankError
 from quizgen.question.formula_sheet import compose_sheet
+from quizgen.typeset.prose import PlainText
 
 
 def lines(made):

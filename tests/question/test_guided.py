@@ -8,7 +8,6 @@ import pytest
 from sweep import spread
 
 from quizgen.bank.bank import builtin_bank
-from quizgen.bank.markdown import Emphasis, Paragraph
 from quizgen.bank.variant import draw_variant, reference_variant
 from quizgen.core.shares import share_points
 from quizgen.grading.options import GradingOptions
@@ -17,6 +16,7 @@ from quizgen.paper.grading import QuestionGrader
 from quizgen.paper.paper import PaperItem
 from quizgen.question.compose import compose_variant
 from quizgen.question.levels.guided import guided_stages
+from quizgen.typeset.prose import Emphasis, Paragraph
 
 CALCULATING = [
     name for name in builtin_bank().template_paths

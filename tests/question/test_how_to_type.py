@@ -14,8 +14,8 @@ from test_specifications import FULL
 
 from quizgen.kinds import KINDS
 from quizgen.kinds.grade import load_spec
-from quizgen.question.inlines import to_inlines
 from quizgen.render.text import inlines_to_plain_text
+from quizgen.typeset.prose import to_inlines
 
 TOLD = {
     ("set", "en"): "Give all values in any order, separated by semicolons.",

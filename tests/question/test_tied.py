@@ -5,10 +5,9 @@ from __future__ import annotations
 from sweep import together
 
 from quizgen import typeset
-from quizgen.bank.markdown import PlainText
 from quizgen.maths.notation import parse_formula
-from quizgen.question.inlines import TypesetMaths
 from quizgen.question.interpolation import inlines_to_text, unbreakable_groups
+from quizgen.typeset.prose import PlainText, TypesetMaths
 
 
 def maths(text):

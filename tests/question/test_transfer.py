@@ -11,7 +11,6 @@ from models import DIGITS, model, near, solved, symbols
 from sweep import spread, together
 
 from quizgen.bank.bank import builtin_bank
-from quizgen.bank.markdown import ListBlock, Paragraph
 from quizgen.bank.variant import draw_variant
 from quizgen.kinds.grade import grade_answer
 from quizgen.kinds.rubric import suggest_marks
@@ -29,6 +28,7 @@ from quizgen.question.levels.consequence import choose_consequence, choose_way_b
 from quizgen.question.levels.error_spotting import choose_faulty_solution
 from quizgen.question.levels.limit import choose_limit
 from quizgen.question.levels.perturbations import Perturbations, askable_results
+from quizgen.typeset.prose import ListBlock, Paragraph
 
 CALCULATING = [
     name for name in builtin_bank().template_paths

@@ -17,9 +17,9 @@ from quizgen.maths.chain import Chain, ChainStep
 from quizgen.maths.notation import parse_formula
 from quizgen.maths.numbers import to_rational
 from quizgen.question.compose import compose_variant
-from quizgen.question.inlines import TypesetMaths
 from quizgen.question.interpolation import Interpolator, inlines_to_text
 from quizgen.question.worked_steps import typeset_step
+from quizgen.typeset.prose import TypesetMaths
 
 BLANK = "\u00a0"
 TEXT = """# Title

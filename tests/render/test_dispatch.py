@@ -6,22 +6,24 @@ from typing import get_args
 
 import pytest
 
-from quizgen.bank.markdown import (
+from quizgen.core.errors import RenderError
+from quizgen.question import html
+from quizgen.question.data_files import DataFileLink
+from quizgen.question.interpolation import PlacedPicture
+from quizgen.render import text, typst_document
+from quizgen.typeset import nodes, to_latex, to_mathml, to_speech, to_text, to_typst
+from quizgen.typeset.prose import (
     Block,
     CodeBlock,
     Inline,
+    PlacedField,
     PlainText,
     RoundedMarker,
     Slot,
     TypesetFormula,
+    TypesetMaths,
     Unfilled,
 )
-from quizgen.core.errors import RenderError
-from quizgen.question import html
-from quizgen.question.data_files import DataFileLink
-from quizgen.question.inlines import PlacedField, PlacedPicture, TypesetMaths
-from quizgen.render import text, typst_document
-from quizgen.typeset import nodes, to_latex, to_mathml, to_speech, to_text, to_typst
 
 PRINTERS = [to_latex, to_mathml, to_typst, to_speech, to_text]
 

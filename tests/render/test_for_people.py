@@ -9,11 +9,11 @@ import pytest
 from sweep import spread, together
 
 from quizgen.bank.bank import builtin_bank
-from quizgen.bank.markdown import InlineCode
 from quizgen.kinds.grade import grade_answer
 from quizgen.question.compose import compose_question
 from quizgen.question.html import blocks_to_html, inlines_to_html
 from quizgen.render.text import inlines_to_plain_text
+from quizgen.typeset.prose import InlineCode
 
 LANGS = ("en", "bn")
 SEEDS = (1, 2)

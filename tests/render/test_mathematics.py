@@ -11,12 +11,11 @@ import numpy as np
 import pytest
 
 from quizgen import typeset
-from quizgen.bank.markdown import PlainText
 from quizgen.maths.notation import parse_formula
 from quizgen.question.html import inlines_to_html
-from quizgen.question.inlines import TypesetMaths
 from quizgen.render import fonts
 from quizgen.render.html import _build_paper_css
+from quizgen.typeset.prose import PlainText, TypesetMaths
 
 pytestmark = pytest.mark.browser
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from quizgen.bank.bank import builtin_bank
-from quizgen.bank.markdown import TableBlock
 from quizgen.paper.paper import single_question_paper
 from quizgen.render import render_paper
+from quizgen.typeset.prose import TableBlock
 
 BROKEN = """[...document.querySelectorAll("th, td")].flatMap(cell => {
   const range = document.createRange(), broken = [];

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from sweep import together
 
-from quizgen.bank.markdown import CodeBlock
 from quizgen.maths.numbers import to_float
 from quizgen.question.compose import compose_question
 from quizgen.question.part_context import ask_part
+from quizgen.typeset.prose import CodeBlock
 
 SEEDS = ["reference", *range(8)]
 

@@ -15,9 +15,9 @@ from fractions import Fraction
 from sweep import together
 
 from quizgen.bank.bank import builtin_bank
-from quizgen.bank.markdown import CodeBlock
 from quizgen.kinds.code import fold_blanks
 from quizgen.question.compose import compose_question
+from quizgen.typeset.prose import CodeBlock
 
 SEEDS = ["reference", *range(12)]
 CODE = [

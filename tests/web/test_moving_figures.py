@@ -74,7 +74,7 @@ def test_each_has_a_module_a_formula_and_words(bank):
     helper = (MODULES / "moving.js").read_text("utf-8")
     table = re.findall(r'^  "([\w-]+)": \(\) =>', helper, re.MULTILINE)
     assert set(table) == NAMES
-    assert {path.stem for path in MODULES.glob("*.js")} == {*NAMES, "moving", "scene"}
+    assert {path.stem for path in MODULES.glob("*.js")} == {*NAMES, "lines", "moving", "scene"}
     assert {entry.moves for entry in read_formulas(bank)} - {None} == NAMES
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Iterator, Sequence
 
-from quizgen.bank.markdown import Emphasis, Paragraph, PlainText
 from quizgen.cards.content import VocabularyEntry, load_card_words, read_card_entries
 from quizgen.cards.kinds._entry_note import entry_note
 from quizgen.cards.markup import CardLabel
@@ -13,6 +12,7 @@ from quizgen.cards.note import CardBlocks, Note
 from quizgen.cards.request import DeckRequest
 from quizgen.locale import FIRST
 from quizgen.question.entry_prose import entry_blocks, entry_inlines
+from quizgen.typeset.prose import Emphasis, Paragraph, PlainText
 
 LETTERS = "ABCD"
 

@@ -7,15 +7,14 @@ from dataclasses import replace
 
 from quizgen import typeset
 from quizgen.bank.formulas import FormulaEntry, read_formulas
-from quizgen.bank.markdown import Paragraph
 from quizgen.cards.kinds._entry_note import entry_note
 from quizgen.cards.markup import ClozeHole
 from quizgen.cards.note import CardWords, Note
 from quizgen.cards.request import DeckRequest
 from quizgen.question.entry_prose import entry_blocks, entry_inlines
 from quizgen.question.formula_lines import parse_formula_line
-from quizgen.question.inlines import TypesetMaths
 from quizgen.typeset.nodes import MathRow
+from quizgen.typeset.prose import Paragraph, TypesetMaths
 
 
 def notes(wish: DeckRequest) -> Iterator[Note]:

@@ -7,7 +7,6 @@ from typing import Any
 
 from quizgen.bank.bank import Bank
 from quizgen.bank.formulas import read_formulas
-from quizgen.bank.markdown import Emphasis, Inline, ListBlock, Paragraph, PlainText
 from quizgen.bank.template import Template
 from quizgen.cards.content import VocabularyEntry, load_card_words, read_card_entries
 from quizgen.cards.markup import CardLabel, CardPicture, Details, DisplayMaths, InLanguage
@@ -24,6 +23,7 @@ from quizgen.question.compose import (
     draw_instance,
 )
 from quizgen.question.solution import PartSolution, SolvedMisconception
+from quizgen.typeset.prose import Emphasis, Inline, ListBlock, Paragraph, PlainText
 
 SLOT = "card"
 """The place of a card in the draw: the same for every template, so only the seed changes it."""

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from quizgen.bank.markdown import Emphasis, Paragraph, PlainText
 from quizgen.cards.content import StatementEntry, load_card_words, read_card_entries
 from quizgen.cards.kinds._entry_note import entry_note
 from quizgen.cards.markup import CardLabel
 from quizgen.cards.note import CardBlocks, Note
 from quizgen.cards.request import DeckRequest
 from quizgen.question.entry_prose import entry_blocks
+from quizgen.typeset.prose import Emphasis, Paragraph, PlainText
 
 
 def notes(wish: DeckRequest) -> Iterator[Note]:

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from quizgen.bank.markdown import Paragraph
 from quizgen.cards.content import VocabularyEntry, read_card_entries
 from quizgen.cards.kinds._entry_note import entry_note
 from quizgen.cards.note import CardWords, Note
 from quizgen.cards.request import DeckRequest
 from quizgen.locale import FIRST, default_language
 from quizgen.question.entry_prose import entry_blocks, entry_inlines
+from quizgen.typeset.prose import Paragraph
 
 
 def notes(wish: DeckRequest) -> Iterator[Note]:

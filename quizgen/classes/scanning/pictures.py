@@ -140,13 +140,23 @@ def open_pdf(path: Path) -> Iterator[Any]:
         try:
             document = pypdfium2.PdfDocument(path)
         except (pypdfium2.PdfiumError, OSError) as error:
-            locked = "password" in str(error).lower()
+            locked = "password" in str(error).lower() and not _is_opened(path)
             said = "is locked by a password" if locked else "is no sound PDF"
             raise ScanFileError(said, rule="QG610", file=path) from None
         try:
             yield document
         finally:
             document.close()
+
+
+def _is_opened(path: Path) -> bool:
+    """Return whether pdfium opens a file: of one without pages it says the error of another."""
+    from pypdfium2 import raw
+
+    document = raw.FPDF_LoadDocument(f"{path}\0".encode(errors="surrogateescape"), None)
+    if document:
+        raw.FPDF_CloseDocument(document)
+    return bool(document)
 
 
 def draw_blank_page(page: Any) -> NDArray[np.uint8]:

@@ -38,6 +38,8 @@ ROUNDED = fmpq(1, 50)
 """Share of a value by which the decimal that stands for it may be off, besides its last place."""
 RECKONED = fmpq(1, 500)
 """Share by which sides may differ that were worked out from rounded decimals."""
+MOST_HELD = 500
+"""Relations for which a world remembers whether they hold."""
 SHARP_PLACES = 3
 """Decimals from which on a number is taken for a rounded one, not for a given one."""
 
@@ -93,6 +95,7 @@ class World:
         """Take what is known; points are computed when they are first needed."""
         self.domains, self.definitions, self.where = dict(domains), dict(definitions), tuple(where)
         self._points: tuple[dict[str, Any], ...] | None = None
+        self._held: dict[tuple[Relation, bool], bool | None] = {}
 
     def define(self, name: str, formula: Expr, domain: Domain = "real") -> World | None:
         """Return the world in which a name is a formula; None if the formula depends on it."""
@@ -104,8 +107,18 @@ class World:
     def holds(self, relation: Relation, *, rounded: bool = True) -> bool | None:
         """Return whether a relation holds at all points; None if that cannot be told.
 
-        Without ``rounded`` a decimal is exactly what it says.
+        Without ``rounded`` a decimal is exactly what it says. What was said of the last lines is
+        remembered: many learners write the same ones.
         """
+        asked = relation, rounded
+        if asked not in self._held:
+            if len(self._held) >= MOST_HELD:
+                self._held.clear()
+            self._held[asked] = self._find_whether_holds(relation, rounded=rounded)
+        return self._held[asked]
+
+    def _find_whether_holds(self, relation: Relation, *, rounded: bool) -> bool | None:
+        """Return whether a relation holds, compared at each point."""
         if not relation.names <= self.domains.keys():
             return None
         left, right = compile_exact(relation.left), compile_exact(relation.right)
@@ -127,39 +140,53 @@ class World:
     def points(self) -> tuple[dict[str, Any], ...]:
         """The points: the value of every name, where all of them have one."""
         if self._points is None:  # two threads may both compute them, and find the same
-            self._points = tuple(islice(self._iter_points(), 2 * POINTS))
+            domains = tuple((name, _freeze(of)) for name, of in self.domains.items())
+            self._points = _list_points(domains, tuple(self.definitions.items()), self.where)
         return self._points
 
-    def _iter_points(self) -> Iterator[dict[str, Any]]:
-        """Yield points of the free names with the values of the others, where they may lie."""
-        free = {name: of for name, of in self.domains.items() if name not in self.definitions}
-        formulas = [(name, compile_exact(self.definitions[name])) for name in self._in_order()]
-        conditions = [compile_exact(one) for one in self.where]
-        for point in sample_points(free):
-            env: dict[str, Any] = dict(point)
-            with working_precision(BITS):
-                for name, formula in formulas:
-                    env[name] = formula(env)
-                fits = all(_lies_in(env[name], self.domains[name]) for name, _ in formulas)
-                fits = fits and all(condition(env) is True for condition in conditions)
-            if fits:
-                yield env
 
-    def _in_order(self) -> list[str]:
-        """Return the defined names, each behind those that its formula has."""
-        found: dict[str, None] = {}
+@lru_cache(maxsize=256)
+def _list_points(
+    domains: tuple[tuple[str, Any], ...],
+    definitions: tuple[tuple[str, Expr], ...],
+    where: tuple[Expr, ...],
+) -> tuple[dict[str, Any], ...]:
+    """Return the points of a world: what is right leads every learner to the same ones."""
+    with working_precision(BITS):
+        return tuple(islice(_iter_points(dict(domains), dict(definitions), where), 2 * POINTS))
 
-        def visit(name: str) -> None:
-            """Add a name behind what it depends on."""
-            for other in sorted(names_in(self.definitions[name]) & self.definitions.keys()):
-                if other not in found:
-                    visit(other)
-            found[name] = None
 
-        for name in self.definitions:
-            if name not in found:
-                visit(name)
-        return list(found)
+def _iter_points(
+    domains: Mapping[str, Any], definitions: Mapping[str, Expr], where: Sequence[Expr]
+) -> Iterator[dict[str, Any]]:
+    """Yield points of the free names with the values of the others, where they may lie."""
+    free = {name: of for name, of in domains.items() if name not in definitions}
+    formulas = [(name, compile_exact(definitions[name])) for name in _in_order(definitions)]
+    conditions = [compile_exact(one) for one in where]
+    for point in sample_points(free):
+        env: dict[str, Any] = dict(point)
+        for name, formula in formulas:
+            env[name] = formula(env)
+        fits = all(_lies_in(env[name], domains[name]) for name, _ in formulas)
+        if fits and all(condition(env) is True for condition in conditions):
+            yield env
+
+
+def _in_order(definitions: Mapping[str, Expr]) -> list[str]:
+    """Return the defined names, each behind those that its formula has."""
+    found: dict[str, None] = {}
+
+    def visit(name: str) -> None:
+        """Add a name behind what it depends on."""
+        for other in sorted(names_in(definitions[name]) & definitions.keys()):
+            if other not in found:
+                visit(other)
+        found[name] = None
+
+    for name in definitions:
+        if name not in found:
+            visit(name)
+    return list(found)
 
 
 def _is_circular(name: str, definitions: Mapping[str, Expr]) -> bool:
@@ -365,29 +392,41 @@ def implies(
     """
     if first.op != "eq":
         return first == second or _is_multiple(first, second, domains)
-    solved = list(_iter_solved_worlds(first, second, domains, order))
+    solved = _list_solved_worlds(first, second, domains, order)
     return bool(solved) and all(world.holds(second) is True for world in solved)
 
 
-def _iter_solved_worlds(
+def _list_solved_worlds(
     first: Relation, second: Relation, domains: Mapping[str, Domain], order: Sequence[str]
-) -> Iterator[World]:
-    """Yield worlds in which an equation holds, solved for the first name for which that works.
+) -> tuple[World, ...]:
+    """Return worlds in which an equation holds, solved for the first name for which that works.
 
     There is one for each solution that its domain allows.
     """
-    shared = first.names & second.names
-    used = {name: of for name, of in domains.items() if name in first.names | second.names}
-    for name in sorted(shared, key=lambda one: (one not in order, one)):
+    shared = sorted(first.names & second.names, key=lambda one: (one not in order, one))
+    used = [(name, _freeze(of)) for name, of in domains.items()
+            if name in first.names | second.names]  # fmt: skip
+    return _solve_for_one_of(first, tuple(shared), tuple(used))
+
+
+@lru_cache(maxsize=512)
+def _solve_for_one_of(
+    relation: Relation, names: tuple[str, ...], domains: tuple[tuple[str, Any], ...]
+) -> tuple[World, ...]:
+    """Return the worlds of an equation that is solved for the first of some names that works.
+
+    One line is compared with all known mistakes, and these with the lines of all learners.
+    """
+    for name in names:
         worlds = [
-            World(used, {name: formula})
-            for formula in solve_for(first, name)
+            World(dict(domains), {name: formula})
+            for formula in solve_for(relation, name)
             if name not in names_in(formula)
         ]
-        found = [world for world in worlds if world.holds(first) is True]
+        found = tuple(world for world in worlds if world.holds(relation) is True)
         if found:
-            yield from found
-            return
+            return found
+    return ()
 
 
 def _is_multiple(first: Relation, second: Relation, domains: Mapping[str, Domain]) -> bool:
@@ -425,6 +464,16 @@ def find_lost_solution(
     """
     if before.op != "eq" or after.op != "eq":
         return ""
+    known = tuple((name, _freeze(of)) for name, of in domains.items())
+    return _find_lost_in_step(before, after, known, tuple(where))
+
+
+@lru_cache(maxsize=1024)
+def _find_lost_in_step(
+    before: Relation, after: Relation, known: tuple[tuple[str, Any], ...], where: tuple[Expr, ...]
+) -> str:
+    """Return what a step overlooks, for many learners who take the same one."""
+    domains = dict(known)
     return _find_zero_divisor(before, after, domains, where) or _find_lost_root(
         before, after, domains
     )

@@ -6,31 +6,20 @@ import operator
 import re
 import unicodedata
 from collections import Counter
-from collections.abc import Callable, Iterable
-from functools import cache, lru_cache
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cache, lru_cache, partial
+from typing import NamedTuple
 
-from quizgen.locale import list_languages, load_words
+from quizgen.locale import cache_words
+from quizgen.locale.word_patterns import WordPattern, list_tables, list_words
 
-_BRITISH = (
-    ("colour", "color"),
-    ("grey", "gray"),
-    ("centre", "center"),
-    ("metre", "meter"),
-    ("isation", "ization"),
-    ("ise ", "ize "),
-    ("ising", "izing"),
-    ("fibre", "fiber"),
-    ("behaviour", "behavior"),
-    ("aluminium", "aluminum"),
-)
-_UMLAUTS = (("ä", "ae"), ("ö", "oe"), ("ü", "ue"), ("ß", "ss"))
-_ARTICLES = re.compile(r"^(?:the|an|a|der|die|das|ein|eine|it is|its) (?=\S)")
+_ARTICLES = WordPattern(r"^«spelling.articles» (?=\S)")
 _DASH = re.compile(r"[-‐‑‒–—−_/]")
 _DASHES = re.compile(r"(?<=[^\W_])[-‐‑‒–—−_/]|[-‐‑‒–—−_/](?!\d)")
 """Hyphens and dashes, but not the sign of a number."""
 
 
-@lru_cache(maxsize=4096)
+@partial(cache_words, most=4096)
 def fold_word(text: str) -> str:
     """Return a word answer without what does not matter in it.
 
@@ -45,29 +34,89 @@ def fold_word(text: str) -> str:
         text = _DASHES.sub(" ", text).replace("−", "-")
     text = " ".join(text.split()).strip(" .,;:!?\"'()।")
     text = _ARTICLES.sub("", text)
-    for old, new in (*_UMLAUTS, *_BRITISH):
+    for old, new in _list_variants():
         text = text.replace(old, new)
     return text.replace(" ", "")
 
 
-@cache
-def load_translations() -> dict[str, tuple[str, ...]]:
-    """Return common words of other languages, folded, with what they say in English."""
-    return {
-        fold_word(word): tuple(said)
-        for lang in list_languages()
-        for word, said in load_words(lang, "answers").get("said", {}).items()
-    }
+@cache_words
+def _list_variants() -> tuple[tuple[str, str], ...]:
+    """Return spellings of every language with those in whose place they stand: colour, color."""
+    pairs = (row.partition("=") for row in list_words("spelling.variants"))
+    return tuple((old, new) for old, _, new in pairs)
 
 
+class _Words(NamedTuple):
+    """The words of a language with what they say in English, and how its words are put together."""
+
+    said: dict[str, tuple[str, ...]]
+    endings: tuple[str, ...]
+    plain: tuple[str, ...]
+    links: tuple[str, ...]
+
+
+@cache_words
+def _load_known_words() -> tuple[_Words, ...]:
+    """Return the words of each language, folded, with what they say in English."""
+    tables = zip(list_tables("said"), list_tables("spelling"), strict=True)
+    return tuple(_read_known_words(said, spelling) for said, spelling in tables)
+
+
+def _read_known_words(
+    table: Mapping[str, Sequence[str]], spelling: Mapping[str, Sequence[str]]
+) -> _Words:
+    """Return the words of one language, and its endings from the longest."""
+    said: dict[str, list[str]] = {}
+    for english, words in table.items():
+        for word in words:
+            said.setdefault(fold_word(word), []).append(english)
+    return _Words(
+        {word: tuple(senses) for word, senses in said.items()},
+        tuple(sorted(map(fold_word, spelling["said-endings"]), key=len, reverse=True)),
+        ("", *spelling["dictionary-endings"]),
+        tuple(spelling["links"]),
+    )
+
+
+@partial(cache_words, most=4096)
 def find_translation(word: str) -> tuple[str, ...]:
-    """Return what a word says in English, maybe with an adjective's ending; none if unknown."""
-    folded, known = fold_word(word), load_translations()
-    stem = _ADJECTIVE.sub("", folded)
-    return known.get(folded) or known.get(stem) or known.get(f"{stem}e", ())
+    """Return what a word of another language says in English, each of its senses; none if unknown.
+
+    It may have an ending of its language, and be put together of two words where that is done.
+    """
+    folded, tables = fold_word(word), _load_known_words()
+    found = (
+        find(words, folded) for find in (_find_with_ending, _find_compound) for words in tables
+    )
+    return next(filter(None, found), ())
 
 
-_ADJECTIVE = re.compile(r"(?<=.{4})e[rsnm]?$")
+def _find_with_ending(words: _Words, folded: str) -> tuple[str, ...]:
+    """Return the senses of a word, as it stands or without an ending; none if unknown."""
+    if folded in words.said:
+        return words.said[folded]
+    for ending in words.endings:
+        stem = folded.removesuffix(ending)
+        plain = (f"{stem}{end}" for end in words.plain if f"{stem}{end}" in words.said)
+        found = next(plain, "") if stem != folded and len(stem) >= LEAST_STEM else ""
+        if found:
+            return words.said[found]
+    return ()
+
+
+def _find_compound(words: _Words, folded: str) -> tuple[str, ...]:
+    """Return the sense of two known words written as one; none where that is not done."""
+    for cut in range(LEAST_STEM, len(folded) - LEAST_STEM + 1) if words.links else ():
+        last = _find_with_ending(words, folded[cut:])
+        stems = (folded[:cut].removesuffix(link) for link in words.links)
+        first = next((words.said[stem] for stem in stems if stem in words.said), ())
+        if first and last:
+            return (f"{first[0]} {last[0]}",)
+    return ()
+
+
+LEAST_STEM = 4
+"""Letters that are left of a word whose ending does not count."""
 
 
 MOST = 2
@@ -128,10 +177,7 @@ def nearest_terms(typed: str, terms: Iterable[str]) -> tuple[list[str], int]:
     return best, least
 
 
-_PREFIXES = re.compile(
-    r"^(?:anti|non|nicht|dis|mis|trans|over|under|super|sub|pre|post|un|in|im|ir|il|an|de|re|ab|ent|be|ver|a)"
-    r"(?=.{3})"
-)
+_PREFIXES = WordPattern(r"^«spelling.prefixes»(?=.{3})")
 
 
 def is_another_word(typed: str, term: str, known: Iterable[str]) -> bool:
@@ -155,7 +201,7 @@ def is_another_word(typed: str, term: str, known: Iterable[str]) -> bool:
     return changed == 2 and sorted(word) != sorted(wanted)
 
 
-@lru_cache(maxsize=4096)
+@partial(cache_words, most=4096)
 def _strip_word_prefix(word: str) -> str:
     """Return a folded word without a prefix that turns or shifts its meaning."""
     return _PREFIXES.sub("", word)

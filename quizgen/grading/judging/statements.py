@@ -11,11 +11,12 @@ Nothing is learnt and nothing is guessed: what is neither said nor denied stays 
 
 from __future__ import annotations
 
+import itertools
 import re
 import unicodedata
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cache, cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from typing import Literal, NamedTuple
 
 from quizgen.grading.judging.spelling import (
@@ -24,7 +25,8 @@ from quizgen.grading.judging.spelling import (
     is_another_word,
     typo_distance,
 )
-from quizgen.locale import list_languages, load_words
+from quizgen.locale import cache_words, list_languages, load_words
+from quizgen.locale.word_patterns import list_words
 
 Meaning = Literal["said", "half", "denied", "open"]
 """What a clause does with an idea; ``open`` where its words are there and its sign is not sure."""
@@ -37,6 +39,9 @@ LOOSE = 3
 """Words for each that was recognised, from which on they may belong to several statements."""
 SHORTEST = 4
 """Letters of a word that others may go on from; fewer in scripts that write fewer letters."""
+
+LONE = 3
+"""Most things that an example says, its denial counted, which is about a single one."""
 
 _SYMBOLS = {"²": "^2", "³": "^3", "√": "sqrt ", "∝": "~", "∼": "~", "×": "x", "·": "*", "−": "-",
             "σ": "sigma", "λ": "lambda", "µ": "u", "μ": "mu", "Σ": "sigma", "≈": "~", "⁄": "/",
@@ -102,7 +107,7 @@ def _split_prefix(word: str) -> tuple[str, ...]:
         return ("not",)
     word = word.removesuffix("'s").strip("'")
     folded = fold_word(word) or word
-    for prefix in ("non", "nicht"):
+    for prefix in list_words("spelling.denying-prefixes"):
         if folded.startswith(prefix) and len(folded) >= len(prefix) + SHORTEST + 1:
             return ("not", folded.removeprefix(prefix))
     return (folded,)
@@ -127,6 +132,11 @@ class _Vocabulary:
     conditions: frozenset[str]
     harmless: frozenset[tuple[str, ...]]
     frames: tuple[tuple[str, ...], ...]
+    that: frozenset[str]
+    pointers: frozenset[str]
+    speech: frozenset[str]
+    verdicts: frozenset[str]
+    remarks: frozenset[str]
     corrections: frozenset[tuple[str, ...]]
     than: frozenset[str]
     than_behind: frozenset[str]
@@ -139,7 +149,11 @@ class _Vocabulary:
     equal: tuple[frozenset[str], ...]
 
 
-@cache
+_OF_REMARKS = ("that", "speech", "verdicts", "remarks", "denials", "fillers")
+"""Lists of words of which a remark on another statement is made, and nothing else."""
+
+
+@cache_words
 def _vocabulary() -> _Vocabulary:
     """Return the words of all languages, read once."""
     tables = [table for lang in list_languages() if (table := load_words(lang, "statements"))]
@@ -169,6 +183,11 @@ def _vocabulary() -> _Vocabulary:
         words("conditions"),
         frozenset(rows("harmless")),
         tuple(rows("frames")),
+        words("that"),
+        words("pointers"),
+        words("speech"),
+        words("verdicts"),
+        frozenset().union(*map(words, _OF_REMARKS)),
         frozenset(rows("corrections")),
         words("than"),
         words("than_behind"),
@@ -179,6 +198,17 @@ def _vocabulary() -> _Vocabulary:
         tuple((fold_word(word[:-1]), end) for word, end in ends if word.endswith("-")),
         tuple((_fold_row(word), end) for word, end in ends if " " in word),
         _group_equal_words(table["words"] for table in tables),
+    )
+
+
+@cache_words
+def list_clause_words(name: str) -> frozenset[str]:
+    """Return the single words of a list of clauses in all languages, folded: ``denials``."""
+    return frozenset(
+        fold_word(word)
+        for lang in list_languages()
+        for word in load_words(lang, "statements")["clauses"].get(name, ())
+        if " " not in word
     )
 
 
@@ -209,7 +239,7 @@ def _fold_row(text: str) -> tuple[str, ...]:
 
 
 @lru_cache(maxsize=8192)
-def _scales_of(word: str, *, slips: bool = True) -> tuple[Scale, ...]:
+def find_scales(word: str, *, slips: bool = True) -> tuple[Scale, ...]:
     """Return the ends of scales that a word stands for, with ``slips`` those of the fingers too."""
     known = _vocabulary()
     if word in known.scales:
@@ -225,7 +255,7 @@ def _scales_of(word: str, *, slips: bool = True) -> tuple[Scale, ...]:
     near += [
         scale
         for other, scales in known.scales.items()
-        if len(other) > SHORTEST and _is_slip(word, other)
+        if len(other) > SHORTEST + 1 and _is_slip(word, other)
         for scale in scales
     ]
     return tuple(dict.fromkeys(near))
@@ -244,31 +274,18 @@ def _is_near_stem(word: str, stem: str) -> bool:
     return any(_is_slip(word[:size], stem) for size in (len(stem) - 1, len(stem), len(stem) + 1))
 
 
-_ENDINGS = (
-    ("ation", "ations", "ating", "ated", "ates", "ate", "ator", "ational"),
-    ("ity", "ities", "ive", "ively", "ion", "ions", "ing", "ings", "ed", "es", "s", "er", "ers",
-     "est", "ly", "y", "al", "ally", "ment", "ness", "e", "ier", "iest", "ies", "ied"),
-    ("ieren", "iert", "ierte", "ierten", "ierung", "en", "em", "ste", "sten", "ere", "eren",
-     "t", "te", "ten", "et", "ung", "ungen", "n"),
-    ("এর", "ের", "তে", "টা", "টি", "টার", "টির", "গুলো", "গুলোর", "গুলি", "কে", "য়", "র", "ে",
-     "রা", "দের", "ায়", "া", "েই", "ই", "ও"),
-)  # fmt: skip
-_PLAIN = frozenset({"s", "ed", "ing", "es"})
-"""Endings that leave a stem of three letters, too: adds, added."""
-_SUFFIXES = sorted({end for group in _ENDINGS for end in group}, key=len, reverse=True)
-
-
-@lru_cache(maxsize=8192)
+@partial(cache_words, most=8192)
 def _stems(word: str) -> frozenset[str]:
     """Return a folded word, and what is left of it without each ending that leaves a stem."""
     least = SHORTEST if word.isascii() else 2
     found = {word}
-    for end in _SUFFIXES:
+    for end in list_words("spelling.endings"):
         if word.endswith(end):
             stem = word[: -len(end)]
             found |= {stem, stem[:-1]} if stem[-1:] == stem[-2:-1] else {stem}
+    plain = list_words("spelling.plain-endings")
     return frozenset(stem for stem in found if len(stem) >= least or stem == word or (
-        len(stem) == least - 1 and any(word == stem + end for end in _PLAIN)
+        len(stem) == least - 1 and any(word == stem + end for end in plain)
     ))  # fmt: skip
 
 
@@ -306,6 +323,11 @@ class _Item:
     rows: tuple[tuple[str, ...], ...] = ()
     scales: tuple[Scale, ...] = ()
     formula: bool = False
+
+    @cached_property
+    def begins(self) -> frozenset[str]:
+        """Return the words that its rows begin with."""
+        return frozenset(row[0] for row in self.rows)
 
     @property
     def is_general(self) -> bool:
@@ -347,6 +369,17 @@ class Example:
         """Number of things that it says; the more, the better it fits what it is found in."""
         return sum(map(len, self.steps)) + self.denied
 
+    @property
+    def scales(self) -> frozenset[str]:
+        """Names of the scales that it has a word of."""
+        items = itertools.chain.from_iterable(self.steps)
+        return frozenset(name for item in items for name, _ in item.scales)
+
+    @property
+    def is_bare(self) -> bool:
+        """Whether it says how much, or how bright, and nothing else."""
+        return self.size == 1 and bool(self.scales)
+
 
 class Subject:
     """What a subject has words for: groups of words, or rows of words, that mean the same.
@@ -367,6 +400,8 @@ class Subject:
                 for stem in _stems(row[0]):
                     self._begins.setdefault(stem, []).append((index, row))
         self._read: dict[tuple[str, Meaning], Example] = {}
+        self._items: dict[_Item, _Item] = {}
+        self._words: dict[tuple[tuple[str, Meaning], ...], ExampleWords] = {}
 
     def find(
         self, tokens: Sequence[WordToken], place: int
@@ -395,6 +430,70 @@ class Subject:
         if known is None:
             known = self._read[text, meaning] = _read_example(text, meaning, self)
         return known
+
+    def share_item(self, item: _Item) -> _Item:
+        """Return the one item that stands for all that are equal to it."""
+        return self._items.setdefault(item, item)
+
+    def collect_words(
+        self, examples: Sequence[Example], mistakes: Sequence[Example]
+    ) -> ExampleWords:
+        """Return the words of examples of a part and of its mistakes, the same for the same ones.
+
+        Parameters
+        ----------
+        examples, mistakes : sequence of Example
+        """
+        asked = tuple((one.text, one.meaning) for one in (*examples, *mistakes))
+        if asked not in self._words:
+            self._words[asked] = ExampleWords(examples, mistakes)
+        return self._words[asked]
+
+
+class ExampleWords:
+    """The words of all examples of a part, and which of them each typed word may be.
+
+    All answers to a part are searched for the same words, and most are none of them.
+
+    Parameters
+    ----------
+    examples : sequence of Example
+        No word of them is taken for another one misspelt.
+    mistakes : sequence of Example
+    """
+
+    def __init__(self, examples: Sequence[Example] = (), mistakes: Sequence[Example] = ()) -> None:
+        rows = _iter_rows(examples)
+        self.own = frozenset(stem for row in rows for word in row for stem in _stems(word))
+        self._begins = sorted({row[0] for row in _iter_rows((*examples, *mistakes))})
+        self._found: dict[str, tuple[str, ...]] = {}
+
+    def has_own(self, typed: str) -> bool:
+        """Return whether a typed word is a form of one of the examples: no slip of another."""
+        return not self.own.isdisjoint(_stems(typed))
+
+    def find_begun(self, typed: str) -> tuple[str, ...]:
+        """Return the words that rows begin with and of which a typed word is a form."""
+        found = self._found.get(typed)
+        if found is None:
+            if len(self._found) >= MOST_TYPED:
+                self._found.clear()
+            slips = not self.has_own(typed)
+            found = tuple(word for word in self._begins if is_form_of(typed, word, slips=slips))
+            self._found[typed] = found
+        return found
+
+
+MOST_TYPED = 4096
+"""Typed words that are remembered for a part."""
+
+
+def _iter_rows(examples: Iterable[Example]) -> Iterator[tuple[str, ...]]:
+    """Yield the rows of words of all items of examples."""
+    for one in examples:
+        for step in one.steps:
+            for item in step:
+                yield from item.rows
 
 
 @lru_cache(maxsize=512)
@@ -435,7 +534,7 @@ def _read_example(text: str, meaning: Meaning, subject: Subject) -> Example:
                 denied = not denied
             if item is None and words[0] in known.than | known.than_behind:
                 compared = max(len(steps[-1]), 1)
-            steps[-1] += [item] if item else []
+            steps[-1] += [subject.share_item(item)] if item else []
             place += length
     return Example(text, meaning, tuple(map(tuple, filter(None, steps))), denied, compared)
 
@@ -463,7 +562,7 @@ def _read_word(word: str) -> _Item | None:
     known = _vocabulary()
     if word in known.denials | known.ahead | known.than | known.than_behind:
         return None
-    scales = _scales_of(word, slips=False)
+    scales = find_scales(word, slips=False)
     if scales:
         return _Item(scales=scales)
     if word in known.fillers or word in known.breaks or not word[0].isalnum():
@@ -501,7 +600,9 @@ def _has_row(
         if place >= len(tokens):
             return False
         typed = tokens[place].text
-        if typed != word and (exactly or not is_form_of(typed, word, slips=typed not in known)):
+        if typed != word and (
+            exactly or not is_form_of(typed, word, slips=known.isdisjoint(_stems(typed)))
+        ):
             return False
         place += 1
     return True
@@ -527,6 +628,7 @@ class _Clause:
     ahead: list[int] = field(default_factory=list)
     compared: set[int] = field(default_factory=set)
     corrects: bool = False
+    doubted: bool = False
 
 
 @dataclass(frozen=True)
@@ -574,13 +676,13 @@ class Statement:
     """
 
     def __init__(self, typed: str, subject: Subject | None = None) -> None:
-        self.typed, self._known = typed, frozenset[str]()
+        self.typed, self._words = typed, ExampleWords()
         self.tokens = split_tokens(typed)
         self._held = self._find_held(subject) if subject else set()
         self.clauses = self._cut()
         self._rows: dict[int, tuple[_Item, list[tuple[int, ...]]]] = {}
-        self._starts: dict[tuple[str, bool], list[int]] = {}
         self._scales: dict[int, tuple[Scale, ...]] = {}
+        self._doubts: dict[int, set[int]] = {}
 
     def _find_held(self, subject: Subject) -> set[int]:
         """Return the tokens in a row of words of the subject, such as ``salt and pepper``."""
@@ -615,6 +717,7 @@ class Statement:
         for clause in found:
             self._read_denials(clause)
         self._spread_frames(found)
+        self._spread_remarks(found)
         return found
 
     def _ends_sentence(self, place: int) -> bool:
@@ -664,8 +767,9 @@ class Statement:
         )
         if clause.corrects:
             return
+        turning = known.denials | known.ahead | known.than | known.than_behind
         for index, (place, word) in enumerate(zip(clause.places, words, strict=True)):
-            if place in self._held:
+            if place in self._held or word not in turning:
                 continue
             if any(tuple(words[index : index + len(row)]) == row for row in known.harmless):
                 continue
@@ -675,7 +779,7 @@ class Statement:
             elif word in known.ahead and not _is_condition(words, index):
                 clause.ahead.append(place)
             if word in known.than and any(
-                name == "amount" for one in words[:index] for name, _ in _scales_of(one)
+                name == "amount" for one in words[:index] for name, _ in find_scales(one)
             ):
                 clause.compared |= set(clause.places[index + 1 :])
             elif word in known.than_behind and index:
@@ -711,10 +815,78 @@ class Statement:
                 clauses[index - 1].denials.append(mark)
                 clauses[index - 1].whole += 1
 
-    def know(self, examples: Iterable[Example]) -> None:
-        """Take the words of examples for words of their own, none of which misspells another."""
-        rows = (row for one in examples for step in one.steps for item in step for row in item.rows)
-        self._known = frozenset(word for row in rows for word in row)
+    def _spread_remarks(self, clauses: list[_Clause]) -> None:
+        """Doubt what a remark denies: *nobody would say that ...*, *..., which is wrong*.
+
+        A remark speaks of what is said and of nothing else. What it denies stands behind it, or
+        before it in its sentence; one that is a sentence by itself denies the sentence before.
+        """
+        remarks = [self._is_remark(clause) for clause in clauses]
+        for index, clause in enumerate(clauses):
+            begins = not index or clauses[index - 1].sentence != clause.sentence
+            behind = self._count_remark(clauses, index) if begins else 0
+            if behind:
+                for other in clauses[index + behind - 1 :]:
+                    other.doubted |= other.sentence == clause.sentence
+            elif remarks[index]:
+                content = [
+                    (at, other.sentence)
+                    for at, other in enumerate(clauses)
+                    if not remarks[at] and at != index
+                ]
+                mine = [at for at, sentence in content if sentence == clause.sentence]
+                of = clause.sentence
+                if not mine or (index < mine[0] and self._points_back(clause)):
+                    of -= 1
+                clause.doubted = True
+                for other in clauses[:index]:
+                    other.doubted |= other.sentence == of
+
+    def _count_remark(self, clauses: Sequence[_Clause], first: int) -> int:
+        """Return how many clauses a remark at the head of a sentence reaches into; 0 without one.
+
+        It denies once, up to its last word such as *that* or *think*. *The mistake is that ...*
+        denies nothing.
+        """
+        known, head, size, reach = _vocabulary(), [], 0, 0
+        for count, clause in enumerate(clauses[first:], 1):
+            words = [self.tokens[at].text for at in clause.places]
+            if clause.sentence != clauses[first].sentence or (
+                count > 1 and words[0] not in known.that
+            ):
+                break
+            inside = list(itertools.takewhile(known.remarks.__contains__, words))
+            for word in inside:
+                head.append(word)
+                if word in known.that | known.speech:
+                    size, reach = len(head), count
+            if len(inside) < len(words):
+                break
+        head = head[:size]
+        if not head or not self._denies(head):
+            return 0
+        states = len(head) > 1 and head[-1] in known.that and head[-2] in known.helpers
+        return 0 if states and head[0] not in known.verdicts else reach
+
+    def _is_remark(self, clause: _Clause) -> bool:
+        """Return whether a clause only says that what was said is not so."""
+        words = [self.tokens[at].text for at in clause.places]
+        return clause.corrects or (
+            all(word in _vocabulary().remarks for word in words) and self._denies(words)
+        )
+
+    def _points_back(self, clause: _Clause) -> bool:
+        """Return whether a remark says *this* or *that* of the sentence before."""
+        return self.tokens[clause.places[0]].text in _vocabulary().that | _vocabulary().pointers
+
+    def _denies(self, words: Sequence[str]) -> bool:
+        """Return whether words deny an odd number of times: *no doubt* denies nothing."""
+        known = _vocabulary()
+        return sum(word in known.denials | known.verdicts for word in words) % 2 == 1
+
+    def know(self, words: ExampleWords) -> None:
+        """Take the words of what will be looked for, before anything is."""
+        self._words = words
 
     def find(
         self,
@@ -760,20 +932,25 @@ class Statement:
             return replace(evidence, meaning="open") if elsewhere else evidence
         clauses = range(evidence.first, evidence.last + 1)
         unsure = (
-            self._is_said_of_another(evidence, mine, others)
-            or any(self._has_doubt(self.clauses[at], evidence.places) for at in clauses)
+            any(self.clauses[at].doubted for at in clauses)
+            or self._is_said_of_another(evidence, mine, others)
+            or any(not self._list_doubts(at) <= {*evidence.places} for at in clauses)
             or self._has_other_end(evidence, example)
         )
         return replace(evidence, meaning="open") if unsure else evidence
 
-    def _has_doubt(self, clause: _Clause, places: Sequence[int]) -> bool:
-        """Return whether a clause holds words such as *fails to*, which no example foresees."""
-        words = [self.tokens[at].text for at in clause.places]
-        return any(
-            clause.places[at] not in places and tuple(words[at : at + len(row)]) == row
-            for row in _vocabulary().doubts
-            for at in range(len(words))
-        )
+    def _list_doubts(self, index: int) -> set[int]:
+        """Return the tokens of a clause where words such as *fails to* begin."""
+        if index not in self._doubts:
+            places = self.clauses[index].places
+            words = [self.tokens[at].text for at in places]
+            self._doubts[index] = {
+                places[at]
+                for row in _vocabulary().doubts
+                for at in range(len(words))
+                if words[at] == row[0] and tuple(words[at : at + len(row)]) == row
+            }
+        return self._doubts[index]
 
     def _has_other_end(self, evidence: Evidence, example: Example) -> bool:
         """Return whether clauses also say the other end of a scale of an example.
@@ -782,7 +959,7 @@ class Statement:
         where an idea without amounts is not to have one, either (*S gets less, only H stays*).
         """
         apart = evidence.first < evidence.last
-        names = {"sameness", "amount"} if apart else {"sameness"}
+        names = {"sameness", "totality", *(["amount"] if apart else [])}
         wanted = {
             scale
             for step in example.steps
@@ -792,7 +969,7 @@ class Statement:
         }
         wanted -= {(name, -sign) for name, sign in wanted}
         if apart and not any(item.scales for step in example.steps for item in step):
-            wanted |= {("amount", 1)}
+            wanted |= {("amount", 1), ("amount", -1)}
         return bool(wanted) and any(
             (name, -sign) in wanted
             for clause in self.clauses[evidence.first : evidence.last + 1]
@@ -821,7 +998,7 @@ class Statement:
     def _names(self, clause: _Clause, rows: Iterable[Words]) -> bool:
         """Return whether a clause names one of some things, and does not compare with it."""
         return any(
-            at not in clause.compared and _has_row(self.tokens, at, row, known=self._known)
+            at not in clause.compared and _has_row(self.tokens, at, row, known=self._words.own)
             for row in rows
             for at in clause.places
         )
@@ -851,7 +1028,8 @@ class Statement:
         single: set[int] = set()
         for index in range(len(self.clauses)):
             fit = self._fit(items, self._clause_tokens[index], example)
-            if fit:
+            clause = self.clauses[index]
+            if fit and (clause.corrects or not set(fit[1]).isdisjoint(clause.places)):
                 single.add(index)
                 yield from self._weigh(example, index, fit)
         for width in range(2, WIDEST + 1):
@@ -981,7 +1159,7 @@ class Statement:
             rows = tuple(
                 scale for row, scale in _vocabulary().phrases if self._has_loose_row(place, row)
             )
-            self._scales[place] = rows or _scales_of(word, slips=word not in self._known)
+            self._scales[place] = rows or find_scales(word, slips=not self._words.has_own(word))
         return self._scales[place]
 
     def _has_loose_row(self, place: int, row: Sequence[str]) -> bool:
@@ -999,12 +1177,12 @@ class Statement:
     def _list_rows(self, item: _Item) -> list[tuple[int, ...]]:
         """Return the tokens of each place of the text where a row of an item stands."""
         if id(item) not in self._rows:
-            found = sorted(
+            found = () if item.begins.isdisjoint(self._begun) else sorted(
                 (at, number)
                 for number, row in enumerate(item.rows)
-                for at in self._find_starts(row[0], exactly=item.formula)
+                for at in self._begun.get(row[0], ())
                 if self._stands(item, row, at)
-            )
+            )  # fmt: skip
             rows = [tuple(range(at, at + len(item.rows[number]))) for at, number in found]
             self._rows[id(item)] = (item, rows)
         return self._rows[id(item)][1]
@@ -1023,20 +1201,14 @@ class Statement:
                 found.append((at, after))
         return found[::-1]
 
-    def _find_starts(self, word: str, *, exactly: bool) -> list[int]:
-        """Return the tokens at which a row with this first word may begin.
-
-        Most rows begin with a word that is nowhere in the text, and many with the same one.
-        """
-        if (word, exactly) not in self._starts:
-            known = self._known
-            self._starts[word, exactly] = [
-                at
-                for at, typed in self._firsts
-                if typed == word
-                or (not exactly and is_form_of(typed, word, slips=typed not in known))
-            ]
-        return self._starts[word, exactly]
+    @cached_property
+    def _begun(self) -> dict[str, list[int]]:
+        """Return the tokens at which a row may begin, by its first word."""
+        found: dict[str, list[int]] = {}
+        for at, typed in self._firsts:
+            for word in self._words.find_begun(typed):
+                found.setdefault(word, []).append(at)
+        return found
 
     def _stands(self, item: _Item, row: Sequence[str], place: int) -> bool:
         """Return whether a row stands at a token; a formula only if it goes on neither way.
@@ -1045,7 +1217,7 @@ class Statement:
         """
         if len(row) == 1 and place in self._held:
             return False
-        if not _has_row(self.tokens, place, row, exactly=item.formula, known=self._known):
+        if not _has_row(self.tokens, place, row, exactly=item.formula, known=self._words.own):
             return False
         if not item.formula and len(row[0]) > 1:
             return True
@@ -1070,9 +1242,12 @@ class Statement:
         denied = self._is_denied(clause, places)
         turned = sign < 0
         opens_with = self.tokens[clause.places[0]].text
-        contrast = example.denied and index and opens_with in {"not", "nicht"}
+        contrast = example.denied and index and opens_with in list_words("spelling.not")
         unsure = (
-            sign == 0  # or *it is this, not that*: that there is no *that* is not said
+            sign == 0
+            or self._denies_elsewhere(
+                clause, places, example
+            )  # or *it is this, not that*: that there is no *that* is not said
             or denied is None
             or (contrast and clause.sentence == self.clauses[index - 1].sentence)
             or self._has_degree(clause, places, example)
@@ -1083,7 +1258,9 @@ class Statement:
             if sign < 0 and self._belongs_elsewhere(clause, places):
                 return
             flips = (sign < 0) ^ bool(denied) ^ example.denied
-            lone = example.denied and example.size <= 3  # *not linear* does not deny every *linear*
+            lone = (
+                example.denied and example.size <= LONE
+            )  # *not linear* does not deny every *linear*
             if flips and (example.meaning == "denied" or (lone and not denied)):
                 return
             meaning = "denied" if flips else example.meaning
@@ -1116,6 +1293,16 @@ class Statement:
             count = sum(any(place > at for place in places) for at in heads)
         count += sum(any(place > at for place in places) for at in clause.ahead)
         return None if count > 1 else bool(count)
+
+    def _denies_elsewhere(self, clause: _Clause, places: tuple[int, ...], example: Example) -> bool:
+        """Return whether a clause denies, and not the one thing that an example denies.
+
+        *A probability cannot be above 1* does not say that something is no probability.
+        """
+        heads = clause.denials + clause.ahead
+        if not example.denied or example.size > LONE or not heads:
+            return False
+        return all(at > places[-1] + 1 for at in heads)
 
     def _has_degree(self, clause: _Clause, places: tuple[int, ...], example: Example) -> bool:
         """Return whether a word of low degree, such as ``less``, stands before one that is meant.

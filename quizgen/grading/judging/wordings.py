@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Sequence
-from functools import cache, lru_cache
+from collections.abc import Collection, Sequence
+from functools import lru_cache, partial
 from itertools import pairwise
 
+from quizgen.grading.judging.likeness import find_likest, list_senses, tells_all
 from quizgen.grading.judging.spelling import (
     allowed_typos,
     find_translation,
@@ -20,21 +21,18 @@ from quizgen.grading.judging.spelling import (
 )
 from quizgen.grading.reading.answer_reader import says_otherwise
 from quizgen.grading.reading.number_words import list_number_words
-from quizgen.locale import list_languages, load_words
+from quizgen.locale import cache_words
+from quizgen.locale.word_patterns import WordPattern, list_tables, list_words, set_of_words
 
 _TOKEN = re.compile(
     r"[-+−]?(?:\d+/)?√?\d+(?:[.,]\d+)?(?:/√?\d+)?|[^\W\d_]+/\d+|(?:[^\W\d_]|[\u0980-\u09ff])+\d*"
 )
 _ROOT = re.compile(r"(?:sqrt|√) ?\(? ?(\d+) ?\)?")
-_SHARES = (
-    (re.compile(r"\b(?:a |one )?half\b"), "1/2"),
-    (re.compile(r"\b(?:an |one )eighth\b"), "1/8"),
-    (re.compile(r"\b(?:a |one )sixteenth\b"), "1/16"),
-    (re.compile(r"\b(?:a|one) third\b"), "1/3"),
-    (re.compile(r"\b(?:two thirds|zwei ?drittel)\b"), "2/3"),
-    (re.compile(r"\b(?:three quarters|drei ?viertel)\b"), "3/4"),
-    (re.compile(r"\b(?:a |one )?quarter\b"), "1/4"),
-    (re.compile("∞|(?<!\\S)(?:unendlich|অসীম)(?!\\S)"), "infinity"),
+_SHARE = WordPattern(r"\b«wordings.shares»\b")
+_SIGNS = (
+    (WordPattern(r"∞|(?<!\S)«wordings.infinity»(?!\S)"), "infinity"),
+    (re.compile(r"(?<![^\W_])([a-z])_(?=\w)"), r"\1"),
+    (re.compile(r"(?<=\d) ?\.{2,}(?=[-\d ])"), " to "),
     (re.compile(r"(?<![\d\w])\.(?=\d)"), "0."),
     (re.compile(r"\b50 ?%"), "1/2"),
     (re.compile(r"\b25 ?%"), "1/4"),
@@ -42,69 +40,13 @@ _SHARES = (
     (re.compile(r"(?<=\d)[.,]0+(?!\d)"), ""),
     (re.compile(r"(?<![^\W_])([a-z]{3,})(?=\d)"), r"\1 "),
     (re.compile(r"(?<=\d) ?[-–—] ?(?=\d)"), " to "),
-    (re.compile(r"\b(?:minus|negative) (?=\d)"), "-"),
+    (WordPattern(r"\b«minus» (?=\d)"), "-"),
     (re.compile(r"(?<!\S)\+(?=\d)"), ""),
-    (re.compile(r"\b(?:between|zwischen) (.+) (?:and|und) "), r"from \1 to "),
-    (re.compile(r"\bvon\b"), "from"),
-    (re.compile(r"\bbis\b|থেকে"), "to"),
+    (WordPattern(r"\b«between» (.+) «and» "), r"from \1 to "),
+    (WordPattern(r"\b«from»\b"), "from"),
+    (WordPattern(r"(?<![^\W\d_])«to»(?!\w)"), "to"),
 )
-"""Shares in words, and other ways to say what a wording has."""
-_IDLE = frozenset(
-    {
-        "a",
-        "an",
-        "the",
-        "it",
-        "its",
-        "is",
-        "are",
-        "be",
-        "of",
-        "this",
-        "that",
-        "these",
-        "those",
-        "and",
-    }
-    | {
-        "by",
-        "or",
-        "oder",
-        "becomes",
-        "become",
-        "der",
-        "die",
-        "das",
-        "ist",
-        "sind",
-        "und",
-        "ein",
-        "eine",
-        "i",
-        "think",
-        "at",
-        "on",
-        "এর",
-        "এ",
-        "টি",
-        "টা",
-        "এই",
-        "হব",
-        "হয়",
-        "হবে",
-        "হয়ে",
-        "যাব",
-        "যায়",
-        "আর",
-        "ও",
-        "এবং",
-    }
-)
-_JOINING = frozenset({"from", "to", "in", "with", "as", "for", "has", "have", "may", "so"})
-"""Words that say little by themselves, though no other wording may have them."""
-_AGAINST = frozenset(
-    {"wrong", "false", "incorrect", "falsch", "instead", "rather", "other", "others", "ভুল", "মিথ্যা"}
-)
+"""Other ways to say what a wording has."""
 _MOST_WORDS_MORE = 8
 """Words of an answer that the meant wording has not."""
 
@@ -126,16 +68,27 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
     if called:
         return called
     known = frozenset().union(*listed)
-    meant = frozenset(_find_known_word(word, known) for word in _join_compounds(spoken, known))
+    meant = frozenset(
+        one for word in _join_compounds(spoken, known) for one in _find_known_words(word, known)
+    )
     hits = [place for place, words in enumerate(listed, 1) if _own_words(words, listed) & meant]
     if len(hits) != 1:
-        hits = _find_nearest(meant & known, listed)
+        hits = [
+            place
+            for place in _find_nearest(meant & known, listed)
+            if len(listed[place - 1]) <= 2 * len(meant & known)
+        ]
     if len(hits) != 1:
         return 0
     wanted = listed[hits[0] - 1]
     more = meant - wanted
     counted = any(list_number_words().get(word, 0) > 1 or word.isdecimal() for word in more)
-    if counted or more & known or more & _AGAINST or len(more) > _MOST_WORDS_MORE:
+    if (
+        counted
+        or more & known
+        or more & set_of_words("wordings.against")
+        or len(more) > _MOST_WORDS_MORE
+    ):
         return 0
     if not all_named and not _says_enough(_split_words(wordings[hits[0] - 1]), meant, listed):
         return 0
@@ -151,13 +104,65 @@ def find_wording_in(
     German words that are no language of the bank are tried as what they say in English. Places
     that differ between languages mean none.
     """
+    verbatim = {find_verbatim(typed, wordings) for wordings in languages} - {0}
+    if len(verbatim) == 1:
+        return verbatim.pop()
+    spoken = {*_split_words(typed)}
+    if any(_is_shared(spoken, wordings) for wordings in languages):
+        return 0
     found = {find_wording(typed, wordings, all_named=all_named) for wordings in languages} - {0}
     if not found and len(languages) > 1:  # people mix them: ``অনেক বেশি dark``
         mixed = [" ".join(texts) for texts in zip(*languages, strict=True)]
         found = {find_wording(typed, mixed, all_named=all_named)} - {0}
     for said in () if found else list_translated(typed):
         found |= {find_wording(said, languages[0], all_named=all_named)} - {0}
-    return found.pop() if len(found) == 1 else 0
+    if len(found) == 1:
+        return found.pop()
+    split = [
+        [[_split_words(part) for part in _CLAUSE.split(wording)] for wording in wordings]
+        for wordings in languages
+    ]
+    return find_likest(_split_words(typed), split, all_named=all_named)
+
+
+def says_whole(typed: str, wordings: Sequence[str]) -> bool:
+    """Return whether an answer has all words of one of some wordings, or words like them."""
+    said = _split_words(typed)
+    return any(tells_all(said, _split_words(wording)) for wording in wordings)
+
+
+def find_verbatim(typed: str, wordings: Sequence[str]) -> int:
+    """Return the place of the only wording that has these signs in it, ``y = -x``; 0 if none is.
+
+    They must not be words alone, which other words around them may turn, nor a number in another.
+    """
+    piece = _squeeze(typed)
+    least = LEAST_TOLD - piece.isupper()
+    if len(piece) < least or not (_SIGN.search(piece) or piece.isupper()):
+        return 0
+    shape = re.compile(rf"(?<![\w.]){re.escape(piece)}(?![\w.]|[*/^]|\()")
+    found = [place for place, one in enumerate(wordings, 1) if shape.search(_squeeze(one))]
+    same = [place for place, one in enumerate(wordings, 1) if _squeeze(one) == piece]
+    return next((some[0] for some in (same, found) if len(some) == 1), 0)
+
+
+def _squeeze(text: str) -> str:
+    """Return a text as its signs are compared: without blanks around them, powers as ``^``."""
+    for old, new in (("−", "-"), ("²", "^2"), ("³", "^3"), ("**", "^"), ("·", "*"), ("√", "sqrt")):
+        text = text.replace(old, new)
+    text = re.sub(r"\|([^|\s]+)\|", r"abs(\1)", text.strip(" .!?।"))
+    return re.sub(r" ?([-+*/^=<>(),;:|]) ?", r"\1", text)
+
+
+_SIGN = re.compile(r"[=^(_<>+*/]|\w\.\w|[a-z][A-Z]|\d-?[A-Za-z]")
+"""What words do not have: a sign of a formula or of a program."""
+_CLAUSE = re.compile(r"[:;,.](?= |$)")
+
+
+def _is_shared(said: Collection[str], wordings: Sequence[str]) -> bool:
+    """Return whether an answer is one word that several wordings have, and none is just that."""
+    split, said = [{*_split_words(one)} for one in wordings], {*said}
+    return len(said) == 1 and said not in split and sum(said <= one for one in split) > 1
 
 
 def share_words(typed: str, wordings: Sequence[str]) -> bool:
@@ -190,13 +195,14 @@ LEAST_TOLD = 3
 """Letters of a wording that can be recognised in a sentence."""
 
 
-def _list_names_of(wording: str) -> set[frozenset[str]]:
+@lru_cache(maxsize=4096)
+def _list_names_of(wording: str) -> frozenset[frozenset[str]]:
     """Return the words of a wording, and of what stands for all of it beside a comma or a bracket.
 
     ``the long ones, 600 to 700 nm (red)`` has three names.
     """
     parts = _APART.split(wording) if _APART.search(wording) else []
-    return {frozenset(_split_words(part)) for part in (wording, *parts)} - {frozenset()}
+    return frozenset(frozenset(_split_words(part)) for part in (wording, *parts)) - {frozenset()}
 
 
 _APART = re.compile(r"(?<!\d)[,;](?= )|(?<=\d)[,;](?= [^\W\d])|[()]|:(?= )")
@@ -229,14 +235,14 @@ def _find_by_name(typed: str, wordings: Sequence[str]) -> int:
         ],
     ):
         if len(found) == 1:
-            return found[0]
+            return 0 if _is_shared(said & known, wordings) else found[0]
     return 0
 
 
 def _is_little_more(words: frozenset[str]) -> bool:
     """Return whether words beside a name neither deny it nor count anything."""
     return len(words) <= MOST_WORDS_BESIDE and not (
-        words & _AGAINST
+        words & set_of_words("wordings.against")
         or _denies(words)
         or says_otherwise(" ".join(words))
         or any(word.isdecimal() or word in list_number_words() for word in words)
@@ -248,7 +254,18 @@ def _find_same_pieces(typed: str, wordings: Sequence[str]) -> list[int]:
     said = _list_pieces(typed)
     if len(said) < FEWEST_PIECES:
         return []
-    return [place for place, one in enumerate(wordings, 1) if _list_pieces(one) == said]
+    listed = [_list_pieces(one) for one in wordings]
+    return [place for place, pieces in enumerate(listed, 1) if pieces == said] or [
+        place for place, pieces in enumerate(listed, 1) if _are_within(said, pieces)
+    ]
+
+
+def _are_within(said: frozenset[frozenset[str]], pieces: frozenset[frozenset[str]]) -> bool:
+    """Return whether each piece of a wording has just one of an answer in it."""
+    within = {one: [piece for piece in pieces if one and one <= piece] for one in said}
+    return len(said) == len(pieces) == len(
+        {*(p for some in within.values() for p in some)}
+    ) and all(len(some) == 1 for some in within.values())
 
 
 def _list_pieces(text: str) -> frozenset[frozenset[str]]:
@@ -256,7 +273,7 @@ def _list_pieces(text: str) -> frozenset[frozenset[str]]:
     return frozenset(frozenset(_split_words(piece)) for piece in _JOINED.split(text))
 
 
-_JOINED = re.compile(r"[,;] |,? (?:and|und|ও|এবং|আর) ")
+_JOINED = WordPattern(r"[,;] |,? «and» ")
 
 
 def _join_compounds(spoken: tuple[str, ...], known: frozenset[str]) -> tuple[str, ...]:
@@ -279,10 +296,10 @@ def _says_enough(
     exact = {
         word
         for word in {*wording} - frozenset.intersection(*listed)
-        if len(word) == 1 or not (word.isalpha() or _BANGLA.match(word))
+        if len(word) == 1 or any(map(str.isdigit, word))
     }
     own = _own_words(frozenset(wording), listed)
-    own = own - _JOINING or own
+    own = own - set_of_words("wordings.joining") or own
     said = own & meant
     if exact - meant or 2 * len(said) < len(own):
         return False
@@ -301,7 +318,17 @@ def _own_words(words: frozenset[str], listed: list[frozenset[str]]) -> frozenset
 
 def _denies(words: frozenset[str]) -> bool:
     """Return whether a word of denial is among some."""
-    return bool(words & {"not", "no", "without", "never", "nicht", "kein", "keine", "ohne"})
+    return bool(words & set_of_words("wordings.denying"))
+
+
+def _find_known_words(word: str, known: frozenset[str]) -> frozenset[str]:
+    """Return the known words that a typed one is, or says in another language; else itself."""
+    found = _find_known_word(word, known)
+    if found in known:
+        return frozenset({found})
+    senses = [frozenset(_split_words(" ".join(said))) for said in list_senses(word)]
+    told = next((sense for sense in senses if sense and sense <= known), None)
+    return told or next(filter(None, senses), frozenset({found}))
 
 
 def _find_known_word(word: str, known: frozenset[str]) -> str:
@@ -311,7 +338,7 @@ def _find_known_word(word: str, known: frozenset[str]) -> str:
     """
     if word in known:
         return word
-    number = list_number_words().get(word, -1)
+    number = list_number_words().get(word, "")
     spelt = (
         [one for one in known if list_number_words().get(one) == int(word)]
         if word.isdecimal()
@@ -329,7 +356,7 @@ def _find_known_word(word: str, known: frozenset[str]) -> str:
     return near[0] if len(near) == 1 else word
 
 
-@lru_cache(maxsize=4096)
+@partial(cache_words, most=4096)
 def _stem(word: str) -> str:
     """Return an English word without the ending of its verb: ``averag`` of ``averaging``."""
     short = _VERB_ENDING.sub("", word)
@@ -339,41 +366,46 @@ def _stem(word: str) -> str:
 MOST_WORDS_BESIDE, FEWEST_PIECES = 3, 2
 LONG = 9
 """Letters of a word that tells a wording by itself."""
-_VERB_ENDING = re.compile(r"(?:ing|ed|ion|e)$")
+_VERB_ENDING = WordPattern(r"«wordings.verb-endings»$")
 LEAST_STEM = 4
 """Letters that are left of a word whose ending does not matter."""
 
 
-@lru_cache(maxsize=1024)
+@partial(cache_words, most=1024)
 def _split_words(text: str) -> tuple[str, ...]:
     """Return the words of a text by which wordings are told apart, in order."""
     text = _ROOT.sub(r"√\1", unicodedata.normalize("NFC", text).casefold().replace("−", "-"))
-    for pattern, sign in _SHARES:
+    text = _SHARE.sub(lambda one: _load_shares()[one[0]], text)
+    for pattern, sign in _SIGNS:
         text = pattern.sub(sign, text)
     text = _same_pattern().sub(lambda one: _load_same_words()[one[0]], text)
     folded = (_fold(token) for token in _TOKEN.findall(text))
-    return tuple(word for word in folded if word and word not in _IDLE)
+    return tuple(word for word in folded if word and word not in set_of_words("wordings.idle"))
 
 
-_BANGLA = re.compile("[\u0980-\u09ff]")
-_BANGLA_ENDING = re.compile(
-    r"(?<=..)(?:টির|টার|টিতে|টাতে|টি|টা|টো|গুলোর|গুলির|গুলোকে|গুলো|গুলি|য়ের|ের|েই|কে|তে|র|ে|ই)$"
-)
-"""What a case, a number or a stress adds to a Bangla word."""
+_ENDING = WordPattern(r"(?<=..)«wordings.endings»$")
+"""What a case, a number or a stress adds to a word."""
 
 
-@cache
+@cache_words
+def _load_shares() -> dict[str, str]:
+    """Return the shares in words of all languages to fractions."""
+    rows = (row.split(" ", 1) for row in list_words("wordings.shares"))
+    return {word: share for share, word in rows}
+
+
+@cache_words
 def _load_same_words() -> dict[str, str]:
     """Return the words and phrases that say the same as another one, of all languages."""
     return {
         word: said
-        for lang in list_languages()
-        for said, words in load_words(lang, "answers").get("same", {}).items()
+        for table in list_tables("same")
+        for said, words in table.items()
         for word in words
     }
 
 
-@cache
+@cache_words
 def _same_pattern() -> re.Pattern[str]:
     """Return the pattern of everything that says the same as another word."""
     listed = "|".join(map(re.escape, sorted(_load_same_words(), key=len, reverse=True)))
@@ -382,8 +414,9 @@ def _same_pattern() -> re.Pattern[str]:
 
 def _fold(token: str) -> str:
     """Return a word without the ending of its plural and without spelling variants."""
-    if _BANGLA.match(token):
-        return _BANGLA_ENDING.sub("", token)
+    short = _ENDING.sub("", token)
+    if short != token:
+        return short
     if not token.isalpha() or token in list_number_words():
         return token
     word = fold_word(token)

@@ -11,7 +11,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from fractions import Fraction
-from functools import cache
 from typing import Literal, NamedTuple, TypeAlias
 
 from quizgen.core.errors import FormulaError
@@ -20,7 +19,7 @@ from quizgen.grading.reading.factor_words import is_shrinking, read_factor
 from quizgen.grading.reading.joined_values import rejoin_values, repeat_value
 from quizgen.grading.reading.labels import NAME, AskedNames, find_name
 from quizgen.grading.reading.literals import LITERAL
-from quizgen.grading.reading.normalise import APPROXIMATE, LONGEST_PROSE, REWRITES
+from quizgen.grading.reading.normalise import LONGEST_PROSE, REWRITES
 from quizgen.grading.reading.number_words import (
     add_large_words,
     add_mixed_units,
@@ -30,8 +29,15 @@ from quizgen.grading.reading.number_words import (
     replace_only_number_word,
 )
 from quizgen.grading.reading.source_map import SourceText
+from quizgen.grading.reading.spoken_values import (
+    find_given_value,
+    list_meant_values,
+    write_spoken_formula,
+    write_spoken_value,
+)
 from quizgen.grading.reading.units import read_unit
-from quizgen.locale import list_languages, load_words
+from quizgen.locale import cache_words, list_languages, load_words
+from quizgen.locale.word_patterns import WordPattern, set_of_words
 
 AnswerForm: TypeAlias = Literal[
     "number", "quantity", "values", "formula", "word", "option", "verbatim"
@@ -57,16 +63,16 @@ _BULLET = re.compile(r"^(?:[•◦▪‣∙∴⇒→*+–—-] +(?=\S)|#{1,6} +)
 _DASH = re.compile(r"^[–—−-] +(?=[.,]?\d)")
 _LIST_MARK = re.compile(r"^\(?[a-h]\) *(?=\S)")
 _ARROW = re.compile(r"^(?:∴|⇒|=>|→|->|>>>|≈|=) *(?=\S)")
-_SIGNED = re.compile(r"^(?:minus|negative|মাইনাস|ঋণাত্মক) +(?=\S)", re.IGNORECASE)
-_PER_CENT = re.compile(r"(?<=\d) *(?:per cent|percent|prozent|শতাংশ)(?!\w)", re.IGNORECASE)
-_SPOKEN_SHARE = re.compile(r" *(?:point|komma) [^\W\d_]+", re.IGNORECASE)
+_SIGNED = WordPattern(r"^«minus» +(?=\S)", re.IGNORECASE)
+_PER_CENT = WordPattern(r"(?<=\d) *«percent»(?!\w)", re.IGNORECASE)
+_SPOKEN_SHARE = WordPattern(r" *«point» [^\W\d_]+", re.IGNORECASE)
 """A number that begins with its decimal sign in words; ``point`` is what some questions ask for."""
 _MODULUS = re.compile(r"(?<=[\d)]) ?% ?(?=\d+ ?(?:=|$))")
 _THOUSANDS = re.compile(r"(?<=\d)k(?!\w)")
 """A thousand as in ``13.5k``; the unit of temperatures is a capital letter."""
-_SPOKEN_POINT = re.compile(r"(?<=\d) (?:point|komma|দশমিক) (?=\d)", re.IGNORECASE)
-_ORDINAL = re.compile(r"(?<=\d)(?:st|nd|rd|th|stel|tel)(?![^\W\d_])")
-_OF_A = re.compile(r"(?<=\d) (?:of|von) (?:an?|one|the|einer|einem|der)? ?(?=[^\W\d_])")
+_SPOKEN_POINT = WordPattern(r"(?<=\d) «point» (?=\d)", re.IGNORECASE)
+_ORDINAL = WordPattern(r"(?<=\d)«ordinal-endings»(?![^\W\d_])")
+_OF_A = WordPattern(r"(?<=\d) «of» (?:«of-what»)? ?(?=[^\W\d_])")
 _LETTERS = r"(?:[^\W\d_]|[\u0981-\u0983\u09bc\u09be-\u09cd\u09d7])"
 _WORD = re.compile(rf"{_LETTERS}+(?:['’-]{_LETTERS}+)*")
 _DIGITS = LITERAL.pattern.removesuffix(r"\.?")
@@ -76,16 +82,16 @@ _FOUND = re.compile(
     rf"(?<![\w.,^/*])[-+]?(?:{_DIGITS})(?=[^\W\d_])"
 )
 _GROUPED = re.compile(r"(?<![\d.,])\d{1,3}([.,])\d{3}(?:\1\d{3})+(?![\d.,]?\d)")
-_LABEL = re.compile(
+_LABEL = WordPattern(
     rf"(?<![^\W\d_])((?:{_LETTERS})+'*(?:_[^\W_]+'*)?)"
-    r"(?: ?[:=] ?| (?:is|are|ist|gleich|equals|হলো|হল) | ?)"
+    r"(?: ?[:=] ?| «is» | ?)"
     r"(?=[-+−]?[.,]?\d)"
 )
 _BEHIND = re.compile(rf"([-+−]?\d+(?:[.,]\d+)?) ?((?:{_LETTERS})+'*(?:_[^\W_]+'*)?)(?:[ ,;]+|$)")
 _LONG_LABEL = re.compile(rf"(?:{_LETTERS}+ ){{1,2}}({_LETTERS}+)(?: ?[:=] ?| )(?=[-+−]?[.,]?\d)")
-_LABELLED = re.compile(rf"(.*\d.*?)[ (]+(?:for |für )?((?:{_LETTERS})+'*(?:_[^\W_]+'*)?)\)?")
-_PARTED = re.compile(r"[;\n]|,(?!\d)| (?:and|und|ও|এবং|আর) ")
-_JOINED = re.compile(r"[ ,;]*(?:(?<![\w\u0980-\u09ff])(?:and|und|ও|এবং|আর))?[ ,;]*$")
+_LABELLED = WordPattern(rf"(.*\d.*?)[ (]+(?:«for» )?((?:{_LETTERS})+'*(?:_[^\W_]+'*)?)\)?")
+_PARTED = WordPattern(r"[;\n]|,(?!\d)| «and» ")
+_JOINED = WordPattern(r"[ ,;]*(?:(?<![\w\u0980-\u09ff])«and»)?[ ,;]*$")
 _FEWEST = 2
 """Labelled values that are no slip."""
 _MOST_WORDS = 14
@@ -115,7 +121,7 @@ class _AroundWords(NamedTuple):
     """How far a value is said to be rounded, behind it."""
 
 
-@cache
+@cache_words
 def _load_around_words() -> _AroundWords:
     """Return the words that may stand around an answer, of all languages, as patterns.
 
@@ -164,17 +170,16 @@ def _load_around_words() -> _AroundWords:
     )
 
 
-_NO_UNIT_BEFORE_A_WORD = frozenset({"in", "a", "as", "at", "am", "um", "d", "to", "so", "is"})
-_IN_UNIT = re.compile(r"(?<=\d) ?\(? ?in ([^\W\d_°]+|°)\)?$", re.IGNORECASE)
+_IN_UNIT = WordPattern(r"(?<=\d) ?\(? ?«in» ([^\W\d_°]+|°)\)?$", re.IGNORECASE)
 _CLOCK = re.compile(r"(\d{1,2})(?::([0-5]\d) ?h| ?h ?([0-5]\d))")
 _CALLED = re.compile(r"[\w-]\(?$|-\s*$")
 """A call of a function, or a dash, right before a number."""
 _BETWEEN = re.compile(r"[\s\w.,:;\u0980-\u09ff-]*")
-_NAMED = re.compile(
-    rf"^(?:so |also )?(?:\|{NAME}\||{NAME}[\u0300-\u036f]?)"
-    rf"(?: ?[=≈:] ?| (?:is|ist|gleich) )(?:(?:{APPROXIMATE}) )?(?=[-+]?[.,]?\d|√|sqrt)"
+_NAMED = WordPattern(
+    rf"^(?:«so» )?(?:\|{NAME}\||{NAME}[\u0300-\u036f]?)"
+    rf"(?: ?[=≈:] ?| «is» )(?:«about» )?(?=[-+]?[.,]?\d|√|sqrt)"
 )
-_NEARLY = re.compile(rf"(?:almost|nearly|fast|প্রায়){_END}", re.IGNORECASE)
+_NEARLY = WordPattern(rf"«nearly»{_END}", re.IGNORECASE)
 """What changes a word, and only rounds a number."""
 _LOOKS_SAFE = re.compile(r"[\s\w.,:!?'’\"“”„()=≈\u0980-\u09ff-]*")
 
@@ -219,6 +224,7 @@ def list_plainer_texts(
         if form == "values":
             yield from _list_plainer_values(spelt, names, ranges=ranges)
         else:
+            yield from list_meant_values(spelt)
             yield from _single_answer(spelt, form)
             yield from _find_conclusion(spelt)
 
@@ -253,17 +259,14 @@ _INDEXED = re.compile(r"(^|[,;/\n] *)(\d{1,4}) ?[:=] ?(?=[-+−.]?\d)")
 
 def _list_barer_formulas(text: str) -> Iterator[str]:
     """Yield a formula without words behind it, and the last side of several."""
-    text = _WORDS_BEHIND.sub("", text)
+    text = write_spoken_formula(_WORDS_BEHIND.sub("", text))
     yield text
     if "=" in text:
         yield text.rpartition("=")[2]
 
 
-_ROOT_OF = re.compile(
-    r"(?:the )?(?:(?:square |quadrat)?root of|(?:quadrat)?wurzel (?:aus|von)) ([^\s+*/=-]+)",
-    re.IGNORECASE,
-)
-_ROOT_BEHIND = re.compile(r"([^\s+*/=-]+?)(?:-| )?এর (?:বর্গ)?মূল")
+_ROOT_OF = WordPattern(r"«root-of» ([^\s+*/=-]+)", re.IGNORECASE)
+_ROOT_BEHIND = WordPattern(r"([^\s+*/=-]+?)(?:-| )?«root-behind»")
 _WORDS_BEHIND = re.compile(r" \((?:[^\W\d_]{3,}[ -]?)+\)$")
 _FRACTION_FACTOR = re.compile(r"(?<![\w.,^/*)])(\d+ ?/ ?\d+) (?=[(√]|[^\W\d_])")
 
@@ -310,10 +313,13 @@ def _find_conclusion(text: str) -> Iterator[str]:
         concluded = shape.fullmatch(text)
         if concluded and not says_otherwise(concluded["rest"]):
             yield add_mixed_units(concluded["rest"].rpartition("=")[2].strip() or text)
+    said, given = find_given_value(text)
+    if given and not is_denied(said):
+        yield given
 
 
-_CONCLUDED = re.compile(
-    r".*\w.*?[,;:.]? (?:exactly|precisely|genau|so|thus|hence|therefore|daher|deshalb|also|তাই|সুতরাং)"
+_CONCLUDED = WordPattern(
+    r".*\w.*?[,;:.]? (?:«exactly»|«so»)"
     r",? (?P<rest>(?:[^,;]|(?<=\d),(?=\d))*\d(?:[^,;]|(?<=\d),(?=\d))*)",
     re.IGNORECASE | re.DOTALL,
 )
@@ -332,12 +338,12 @@ def _is_idle_remark(words: str) -> bool:
     """Return whether words in brackets behind a number neither change it nor offer another."""
     found = [word[0].lower() for word in _WORD.finditer(words)]
     return len(found) <= _MOST_WORDS and not {*found} & (
-        _load_around_words().altering - {"not", "no", "kein", "nicht", "to", "from"}
+        _load_around_words().altering - set_of_words("harmless-in-brackets")
     )
 
 
-_SAME_VALUE = re.compile(
-    r"([^()]*\d(?: ?[^\W\d]{1,12}(?:/[^\W\d]{1,12})?)?) \((?:i\.e\. |[=≈] ?)?([^()]*\d[^()]*)\)"
+_SAME_VALUE = WordPattern(
+    r"([^()]*\d(?: ?[^\W\d]{1,12}(?:/[^\W\d]{1,12})?)?) \((?:«that-is» |[=≈] ?)?([^()]*\d[^()]*)\)"
 )
 """A value, and what may be the same one in brackets."""
 
@@ -360,9 +366,8 @@ def _read_share(text: str) -> Fraction:
 
 
 _PLAIN_SHARE = re.compile(r"\d+(?:\.\d+)?(?:/[1-9]\d*)?")
-_DISTANCE = re.compile(
-    r"^ (?:(?:away|back) )?(?:from|von) (?=(?:the|a|its|der|dem|den|einer|einem) )"
-    r"|^ away from (?=[^\W\d])",
+_DISTANCE = WordPattern(
+    r"^ (?:«away» )?«from» (?=«articles» )|^ «away» «from» (?=[^\W\d])",
     re.IGNORECASE,
 )
 """From what a length is measured: no range, where no other number stands."""
@@ -445,7 +450,7 @@ def _write_words_as_numbers(text: str) -> str:
     text = _load_around_words().rounded.sub(" ≈ ", _UNDERSCORED.sub("", text))
     typed_array = _TYPED_NUMBER.fullmatch(text)
     text = typed_array[1] if typed_array else text
-    text = _write_share_of_unit(text)
+    text = write_spoken_value(_write_share_of_unit(text))
     signed = _SIGNED.sub("", text)
     sign = "-" if signed != text and not signed.startswith(("-", "−", "–")) else ""
     spelt = _SPOKEN_POINT.sub(".", _THOUSANDS.sub(" thousand", signed if sign else text))
@@ -466,9 +471,7 @@ def _write_share_of_unit(text: str) -> str:
     return f"{share} {match[2]}" if match and "/" in share else text
 
 
-_SHARE_OF_UNIT = re.compile(
-    rf"([^\d,;.]+?) (?:(?:of|von|einer?|eines|of an?|of one) )+({_LETTERS}+)", re.IGNORECASE
-)
+_SHARE_OF_UNIT = WordPattern(rf"([^\d,;.]+?) (?:«share-of» )+({_LETTERS}+)", re.IGNORECASE)
 
 
 def _write_items_as_numbers(text: str) -> str:
@@ -492,19 +495,19 @@ def _write_item_as_number(piece: str) -> str:
 
 _LABEL_BEFORE_WORD = re.compile(r"([A-Z]'?(?:_?\d)?)(?: ?[=:] ?| )(?=[^\W\d])")
 """A letter before a number in words, ``G পঁচিশ``."""
-_REMARKED = re.compile(
-    r"([-+−]?\d[^()]*?) ?\(([^\W\d][^()]*|\d+ ?%? (?:of|von) [^()]*"
+_REMARKED = WordPattern(
+    r"([-+−]?\d[^()]*?) ?\(([^\W\d][^()]*|\d+ ?%? «of» [^()]*"
     r"|\d+(?:\.|[.,]\d+)? ?[^\W\d]{3}[^()\d]*)\)"
 )
 _REMARK = re.compile(r"(?<=\d) ?\([^\W\d][^()\d;,]*\)")
-_MINUS = re.compile(r"(?<![^\W\d_])(?:minus|মাইনাস) (?=[.,]?\d)", re.IGNORECASE)
-_LAST_LIST = re.compile(
-    r"(?:.*\d.*|[^(,;]+)(?:=|:|, (?:so|thus|hence|therefore|also|daher|তাই)) ?"
+_MINUS = WordPattern(r"(?<![^\W\d_])«minus» (?=[.,]?\d)", re.IGNORECASE)
+_LAST_LIST = WordPattern(
+    r"(?:.*\d.*|[^(,;]+)(?:=|:|, «so») ?"
     r"(\([^()=]+\)|\[[^\[\]=]+\])",
     re.DOTALL,
 )
 """The list at the end of equal ones: ``2·(1; 3) = (2; 6)``."""
-_ITEMS = re.compile(r"([;,\n] *| (?:and|und|ও|এবং|আর) )")
+_ITEMS = WordPattern(r"([;,\n] *| «and» )")
 
 
 def separate_labelled_values(text: str, names: AskedNames) -> Iterator[str]:
@@ -601,7 +604,7 @@ def prove_groups(typed: str) -> str:
 
 
 _DECIMAL_BESIDE = re.compile(r"(?<![\d.,])\d+([.,])(?:\d{1,2}|\d{4,})(?![\d.,])")
-_HARD = re.compile(r"[;|\n]| / | (?:and|und|ও|এবং) ")
+_HARD = WordPattern(r"[;|\n]| / | «and» ")
 
 
 def scan_numbers(text: str) -> tuple[list[str], list[str]]:
@@ -635,7 +638,7 @@ def _find_unit(text: str, start: int) -> tuple[str, int]:
         end = start + tokens[count - 1].end()
         unit = text[start:end].strip().rstrip(".")
         more = len(tokens) > count
-        if unit.lower().rpartition(" ")[2] in _NO_UNIT_BEFORE_A_WORD and more:
+        if unit.lower().rpartition(" ")[2] in set_of_words("no-units") and more:
             continue
         if any(map(str.isdigit, unit.replace("^2", "").replace("^3", ""))):
             continue
@@ -663,9 +666,9 @@ def _is_idle_word(word: str) -> bool:
     """Whether a word beside a number neither denies, doubles nor multiplies it."""
     small = word.lower().replace("’", "'")
     if len(small) == 1:
-        return small in {"a", "i"}
+        return small in set_of_words("letters-as-words")
     return small not in _load_around_words().altering and (
-        small not in list_number_words() or small in {"ein", "eine"}
+        small not in list_number_words() or small in set_of_words("numbers.articles")
     )
 
 

@@ -9,55 +9,42 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from functools import cache
 
 from quizgen.grading.reading.labels import SIGNS, AskedNames, find_name
-from quizgen.locale import list_languages, load_words
+from quizgen.locale import cache_words
+from quizgen.locale.word_patterns import WordPattern, list_tables, set_of_words
 
 NumberScan = Callable[[str], tuple[list[str], list[str]]]
 """From a text to the numbers in it, and the pieces of text around them."""
 
 _LETTER = rf"(?:[^\W\d_]|[{SIGNS}])"
-_NUMBERED = re.compile(
-    rf"({_LETTER}{{2,}}|[Pp](?=\d)) ?(\d)(?= ?[:=]|,? (?:is|gets|becomes|has|ist|wird|hat)(?!\w)"
+_NUMBERED = WordPattern(
+    rf"({_LETTER}{{2,}}|[Pp](?=\d)) ?(\d)(?= ?[:=]|,? «becomes»(?!\w)"
     rf"|(?: {_LETTER}{{2,}})? [-+−]?\d)"
 )
 """A noun with its number before a value, ``pixel 1: 141``."""
-_NUMBERED_BEHIND = re.compile(
-    rf"(?:for|at|in|of|für|bei) ({_LETTER}{{2,}}) (\d)(?= *(?:[,;)\n]|and |und |$))"
-)
+_NUMBERED_BEHIND = WordPattern(rf"«at» ({_LETTER}{{2,}}) (\d)(?= *(?:[,;)\n]|«and» |$))")
 _COUNTED_OFF = re.compile(r"(?:(?<=[\s,;])|^)\(?(\d)(?:[.)]|:(?! *\d+ *:)) +(?=[-+−~≈]?[.,]?\d)")
 _ASSIGNED = re.compile(r"[=:≈] *$")
-_PARTED = re.compile(r"[;\n]|,(?!\d)| / |,? (?:and|und|ও|এবং|আর|with|mit|while|während) ")
+_PARTED = WordPattern(r"[;\n]|,(?!\d)| / |,? (?:«and»|«with») ")
 _WORDS = re.compile(rf"{_LETTER}+(?:'|_?\d|_{_LETTER}+)*(?![^\W_])|_\d")
 _UNFINISHED = re.compile(r"[-+−*/^·×÷=] *(?:[;,\n]|$)")
 """A formula that somebody has not finished."""
 _MARK = "_"
 """Before the number of a place, which is no value then."""
-_JOINING = frozenset({"as", "is", "at", "in", "of", "to", "by", "it", "an", "on", "im", "am"})
 _MOST_WORDS = 6
 _LONGEST_NAME = 3
 
 
-@cache
+@cache_words
 def _list_ordinals() -> dict[str, str]:
     """Return the words for first, second, ... of every language, with their digits."""
     return {
         word: str(place)
-        for lang in list_languages()
-        for place, words in enumerate(load_words(lang, "answers")["ordinals"]["counted"], 1)
+        for table in list_tables("ordinals")
+        for place, words in enumerate(table["counted"], 1)
         for word in words.split("|")
     }
-
-
-@cache
-def _list_refused() -> frozenset[str]:
-    """Return the words that deny, compare or offer another value, of every language."""
-    return frozenset(
-        word
-        for lang in list_languages()
-        for word in load_words(lang, "answers")["ordinals"]["refused"]
-    )
 
 
 def bind_values(text: str, names: AskedNames, scan: NumberScan) -> Iterator[str]:
@@ -126,19 +113,19 @@ def _list_words(text: str) -> list[str]:
 
 def _find_meant(words: list[str], names: AskedNames, asked: list[str]) -> str | None:
     """Return the name that words mean, '' if none; None if several, or if they say otherwise."""
-    if len(words) > _MOST_WORDS or {*words} & _list_refused():
+    if len(words) > _MOST_WORDS or {*words} & set_of_words("ordinals.refused"):
         return None
     found = set()
     for size in range(min(_LONGEST_NAME, len(words)), 0, -1):
         for start in range(len(words) - size + 1):
             said = " ".join(words[start : start + size])
-            if said not in {"a", "i"} or len(words) == 1:
+            if said not in set_of_words("letters-as-words") or len(words) == 1:
                 found.add(find_name(said, names))
         if found - {""}:
             break
     found |= {_find_by_place(word, names, asked) for word in words}
     found -= {""}
-    strange = any(len(word) == 1 and word not in {"a", "i"} for word in words)
+    strange = any(len(word) == 1 and word not in set_of_words("letters-as-words") for word in words)
     return None if len(found) > 1 or (strange and len(words) > 1) else next(iter(found), "")
 
 
@@ -166,5 +153,7 @@ def _complete(bound: list[str | None], words: list[list[str]], asked: list[str])
         return [name for name in bound if name]
     place = bound.index("")
     left = next(name for name in asked if name not in named)
-    short = any(len(word) < len("max") and word not in _JOINING for word in words[place])
+    short = any(
+        len(word) < len("max") and word not in set_of_words("short-words") for word in words[place]
+    )
     return [name or left for name in bound] if asked.index(left) == place and not short else []

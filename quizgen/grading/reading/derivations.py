@@ -12,6 +12,7 @@ from quizgen.grading.judging.relations import Relation
 from quizgen.grading.reading.formulas import TypedFormula, read_formula
 from quizgen.grading.reading.normalise import refuse_invisible, refuse_long_prose
 from quizgen.grading.reading.source_map import SourceText
+from quizgen.locale.word_patterns import WordPattern
 from quizgen.maths.notation import FormulaReadError, format_tree, pretty
 from quizgen.maths.notation.names import CONSTANTS, FUNCTIONS, GREEK, NAME, fold_name, split_product
 from quizgen.maths.tree import Expr, Sym
@@ -42,28 +43,24 @@ _LATEX = (
 )
 """What stands between formulas in LaTeX; what stands in them is read with them."""
 
-_THEN = (
-    "so", "hence", "thus", "therefore", "then", "daher", "somit", "folglich", "damit", "also",
-    "তাই", "অতএব", "সুতরাং", "ফলে",
-)  # fmt: skip
-_ARROW = re.compile(
-    rf"<=+>|<-+>|⇔|⟺|↔|⟷|=+>|⇒|⟹|(?<=\S)[ ,]+(?:{'|'.join(_THEN)})[ ,:]+(?=\S)", re.IGNORECASE
+_ARROW = WordPattern(
+    r"<=+>|<-+>|⇔|⟺|↔|⟷|=+>|⇒|⟹|(?<=\S)[ ,]+(?:«so»|«then»)[ ,:]+(?=\S)", re.IGNORECASE
 )
 _TENDS = re.compile(r"\S\s*(?:->|→|⟶|\\to\b)")
 _BOTH_WAYS = re.compile(r"<=+>|<-+>|⇔|⟺|↔|⟷")
-_START = re.compile(
+_START = WordPattern(
     r"(?:\(?\d{1,2}[.)](?=\s)|[•*∴→⟶]|-{1,2}>|L\d{1,2}:)\s*"
-    rf"|(?:{'|'.join(_THEN)})"
+    r"|(?:«so»|«then»)"
     r"(?![^\W\d_]|[\u0980-\u09ff])[,:]?\s*",
     re.IGNORECASE,
 )
-_OPERATION = re.compile(
-    r"\s(?:\|\||\|)\s*(?=[-+*/:·×÷^√(]|sqrt|ln|log|quadr|wurzel)[^|]*$", re.IGNORECASE
+_OPERATION = WordPattern(
+    r"\s(?:\|\||\|)\s*(?=[-+*/:·×÷^√(]|sqrt|ln|log|«operations»)[^|]*$", re.IGNORECASE
 )
 """What is done next, as it is noted behind a line: ``| · x``."""
 _COMMENT = re.compile(r"\s(?://|#).*$")
 _WORD = re.compile(r"(?<![\\\w'])[^\W\d_]{2,}(?!\w*\()|[\u0980-\u09e5\u09f0-\u09ff]{2,}")
-_SEVERAL = re.compile(r",\s+(?=\S)|\s+(?:and|und|ও|আর|এবং)\s+")
+_SEVERAL = WordPattern(r",\s+(?=\S)|\s+«and»\s+")
 _APPLIED = re.compile(r"(?<![\w'])([^\W\d]\w*'*)\(\s*-?\s*[^\W\d]\w*'*\s*\)")
 """A name before one name in brackets: a function of it, or a product."""
 _NEW_LETTER = frozenset(GREEK.values()) | frozenset(GREEK)

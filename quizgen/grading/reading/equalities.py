@@ -194,7 +194,23 @@ def _read_lenient_side(piece: SourceText, decimal: str) -> EqualitySide | None:
     try:
         return _read_side(piece, decimal)
     except FormulaReadError:
-        return _read_constant_formula(piece, decimal)
+        return _read_constant_formula(piece, decimal) or _read_formula_with_unit(piece, decimal)
+
+
+def _read_formula_with_unit(piece: SourceText, decimal: str) -> EqualitySide | None:
+    """Return ``20·lg(30) dB`` as a side; None if no unit stands behind a formula of numbers."""
+    match = _FORMULA_WITH_UNIT.fullmatch(piece.text)
+    if match is None:
+        return None
+    try:
+        unit = read_unit(match[2])
+    except FormulaError:
+        return None
+    side = _read_constant_formula(piece.slice(0, match.end(1)), decimal)
+    return side and EqualitySide(TypedQuantity(side.quantity.number, unit), side.readings)
+
+
+_FORMULA_WITH_UNIT = re.compile(r"(.*[\d)]) ?([^\W\d_]+|[%°])")
 
 
 def _read_constant_formula(piece: SourceText, decimal: str) -> EqualitySide | None:

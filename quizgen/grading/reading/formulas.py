@@ -18,6 +18,7 @@ from quizgen.grading.reading.written_functions import (
     write_factorials,
     write_roots_and_logs,
 )
+from quizgen.locale.word_patterns import WordPattern, list_tables
 from quizgen.maths.notation import (
     FormulaReadError,
     find_ambiguous_division,
@@ -48,11 +49,7 @@ _SYNONYMS = {
     "log_e": "ln",
     "loge": "ln",
     "Sqrt": "sqrt",
-    "wurzel": "sqrt",
-    "Wurzel": "sqrt",
-    "বর্গমূল": "sqrt",
     "Abs": "abs",
-    "betrag": "abs",
     "sgn": "sign",
     "signum": "sign",
     "cosec": "csc",
@@ -74,6 +71,12 @@ _SYNONYMS = {
     "Min": "min",
 }
 
+
+def _find_function(word: str) -> str:
+    """Return the function that a word of some language stands for."""
+    return str(next(table[word] for table in list_tables("functions") if word in table))
+
+
 _WORD = re.compile(r"[^\W\d_]{2}")
 """A text without one of these names no function."""
 
@@ -82,12 +85,12 @@ _MARKED = re.compile(r"[°%;\[\].,π:]")
 
 FORMULA_REWRITES: dict[str, Rewrite] = {
     "function synonyms": (
-        re.compile(
+        WordPattern(
             r"(?<![^\W\d_])(?:"
             + "|".join(sorted(_SYNONYMS, key=len, reverse=True))
-            + r")(?= ?(?:\(|\^|\*\*| [\w(]))"
+            + r"|«functions.»)(?= ?(?:\(|\^|\*\*| [\w(]))"
         ),
-        lambda m: _SYNONYMS[m[0]],
+        lambda m: _SYNONYMS.get(m[0]) or _find_function(m[0]),
     ),
     "degrees": (re.compile(r"(\d+(?:[.,]\d+)?) ?°"), lambda m: f"({m[1]}*pi/180)"),
     "percent": (re.compile(r"(\d+(?:[.,]\d+)?) ?%"), lambda m: f"({m[1]}/100)"),

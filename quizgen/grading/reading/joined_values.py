@@ -10,6 +10,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from quizgen.locale.word_patterns import WordPattern
+
 _VALUE = r"[-+−]?(?:\d+(?:[.,]\d+)?|[.,]\d+)(?: ?/ ?\d+)?"
 _NUMBER = re.compile(_VALUE)
 _WHOLE = re.compile(
@@ -19,29 +21,24 @@ _ARRAY = re.compile(
     r"(?:(?:np|numpy)\.)?(?:array|matrix)\((.+?)(?:, *dtype *=[^()]*)?\)", re.DOTALL
 )
 _NESTED = re.compile(r"([\[({]) *[\[({].*[\])}] *[\])}]|.*[\])}] *[,;\n]? *[\[({].*", re.DOTALL)
-_LEADING = re.compile(
-    r"(?:(?:at|from|between|first|von|zwischen|zuerst|erst|প্রথমে) |\d?(?:first|second|third|fourth|"
-    r"1st|2nd|3rd|4th) (?:row|line)s?:? )",
-    re.IGNORECASE,
-)
+_LEADING = WordPattern(r"(?:«list-openers» |\d?«row-places» «rows»:? )", re.IGNORECASE)
 _JOINTS = tuple(
-    re.compile(joint, re.IGNORECASE)
+    WordPattern(joint, re.IGNORECASE)
     for joint in (
         r" *(?:[-–—=]+>|[→⇒]) *",
-        r",? +(?:(?:and )?then|und dann|dann|তারপর) +",
-        r" +(?:vs\.?|versus) +",
-        r" +(?:and|und|ও|এবং|আর|ar) +",
+        r",? +(?:«and» )?«then» +",
+        r" +«versus» +",
+        r" +(?:«and»|«and-in-latin») +",
         r" */ *",
     )
 )
-_TO = re.compile(r" +(?:to|bis|until|till|থেকে) +", re.IGNORECASE)
+_TO = WordPattern(r" +«to» +", re.IGNORECASE)
 _BETWEEN = re.compile(r" *[<≤] *[^\W\d_]\w* *[<≤] *")
 _DASH = re.compile(r" +[-–—] +| *[–—] *")
 _DASHES = re.compile(r" *[-–—] *")
 _AROUND = re.compile(rf"({_VALUE}) *(?:±|\+/-|\+-) *({_VALUE})")
-_EACH = re.compile(
-    rf"({_WHOLE.pattern}),? (?:each|both|je(?:weils)?|করে)"
-    rf"|(?:both|all|beide|je(?:weils)?|উভয়) ({_WHOLE.pattern})",
+_EACH = WordPattern(
+    rf"({_WHOLE.pattern}),? «each»|«both» ({_WHOLE.pattern})",
     re.IGNORECASE,
 )
 """One value for all that is asked: ``50 each``."""
@@ -100,7 +97,7 @@ def _flatten_rows(text: str, count: int) -> Iterator[str]:
         yield "; ".join(values)
 
 
-def _cut_at(joint: re.Pattern[str], text: str, count: int) -> Iterator[str]:
+def _cut_at(joint: re.Pattern[str] | WordPattern, text: str, count: int) -> Iterator[str]:
     """Yield the pieces between joints, if each is one value."""
     pieces = [_LEADING.sub("", piece.strip()) for piece in joint.split(text)]
     if len(pieces) == count and all(map(_WHOLE.fullmatch, pieces)):

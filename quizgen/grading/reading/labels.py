@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from functools import cache
 from typing import TypeAlias
 
 from quizgen.grading.judging.spelling import find_translation, fold_word
 from quizgen.grading.reading.source_map import SourceText
-from quizgen.locale import list_languages, load_words
+from quizgen.locale import cache_words, list_languages, load_words
+from quizgen.locale.word_patterns import set_of_words
 from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.notation.names import GREEK, fold_name
 
@@ -38,6 +38,20 @@ def split_name(item: SourceText) -> tuple[str, SourceText]:
     return match[1].strip(), item.slice(match.end())
 
 
+def put_names_first(typed: str, names: AskedNames) -> str:
+    """Return ``v = 700; u = 576`` for ``700 = v; 576 = u``, if all of it is written so."""
+    if "=" not in typed:
+        return typed
+    pieces = [_NAME_LAST.fullmatch(piece.strip()) for piece in re.split(r"[;\n]|,(?!\d)", typed)]
+    found = [piece for piece in pieces if piece]
+    if len(found) < len(pieces) or not all(find_name(piece[2], names) for piece in found):
+        return typed
+    return "; ".join(f"{piece[2]} = {piece[1]}" for piece in found)
+
+
+_NAME_LAST = re.compile(rf"([-+−]?\d[^=:;]*?) ?= ?({NAME})")
+
+
 def name_key(name: str) -> str:
     """Return the spelling that names are compared by."""
     return _INSIDE.sub("", fold_name(name))
@@ -49,7 +63,7 @@ def _prime_last(name: str) -> str:
     return key.replace("'", "") + "'" * key.count("'")
 
 
-@cache
+@cache_words
 def _letters_of_words() -> dict[str, str]:
     """Return the letters that a word may stand for, from every language.
 
@@ -62,7 +76,7 @@ def _letters_of_words() -> dict[str, str]:
     return found
 
 
-@cache
+@cache_words
 def _same_labels() -> tuple[frozenset[str], ...]:
     """Return the words that are one label in several languages: before, vorher, আগে."""
     found: dict[str, set[str]] = {}
@@ -141,10 +155,7 @@ LEAST_SHORTENED = 3
 def _split_label(text: str) -> list[str]:
     """Return the words of a label, without what every label may have."""
     words = [fold_word(word).removesuffix("s") for word in re.split(r"[\s/-]+", text)]
-    return [word for word in words if word and word not in _EMPTY_WORDS] or words
-
-
-_EMPTY_WORDS = frozenset({"a", "an", "the", "image", "with", "value", "and", "of"})
+    return [word for word in words if word and word not in set_of_words("label-fillers")] or words
 
 
 def _find_short_name(typed: str, names: AskedNames) -> str:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from quizgen.grading.reading.labels import NAME
 from quizgen.grading.reading.normalise import LONGEST, LONGEST_PROSE, normalise_typed
 from quizgen.grading.reading.source_map import SourceText
+from quizgen.locale.word_patterns import WordPattern
 from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.notation.names import FUNCTIONS
 
@@ -16,9 +17,10 @@ _HARD = re.compile(r"[;|\n]")
 _COMMA = re.compile(r",")
 _SLASH = re.compile(r" / ")
 _BLANK_BEFORE = re.compile(r" +(?=[,;|])")
-_JOINING = re.compile(r"[,;]? (?:and|und|&|এবং|ও|আর) ")
+_JOINING = WordPattern(r"[,;]? (?:«and»|&) ")
 _UNIT_BEHIND = re.compile(r"[^;,|\d(\[{]*| ?[\[(][^;,|\d\[\](){}]+[\])]")
 _NAMES = re.compile(rf"\(? ?({NAME}(?: ?[,;|] ?{NAME})+) ?\)? ?(?::=|[=:≈]) ?(?=\S)")
+_NAME_ENDS = re.compile("[,;|]")
 _FRONT = re.compile(rf"({NAME})(?: {NAME})* ?(?::=|[=:≈])? ?(?=[(\[{{<])")
 NAMED_NEXT = re.compile(
     rf"(?:[,;]? +|[,;])(?={NAME} ?(?::=|[=:≈]|->|→) ?\S)"
@@ -93,15 +95,15 @@ def normalise_separators(source: SourceText) -> SourceText:
     return source.substitute(_JOINING, lambda _m: ", " if listed else "; ")
 
 
-def split_prefix(source: SourceText) -> tuple[list[str], SourceText]:
+def split_prefix(source: SourceText) -> tuple[list[SourceText], SourceText]:
     """Return the names before a point and the rest: ``p' = (..)``, ``P(..)``, ``(u, v) = (..)``.
 
     Only the names of coordinates are returned; that of the whole point is dropped.
     """
     several = _NAMES.match(source.text)
     if several is not None:
-        names = [name.strip() for name in re.split("[,;|]", several[1])]
-        return names, source.slice(several.end())
+        names = source.slice(several.start(1), several.end(1))
+        return list(_split_at_separator(names, _NAME_ENDS)), source.slice(several.end())
     one = _FRONT.match(source.text)
     if one is None or one[1] in FUNCTIONS:
         return [], source
@@ -109,7 +111,7 @@ def split_prefix(source: SourceText) -> tuple[list[str], SourceText]:
     return [], rest if strip_brackets(rest)[0] is not rest else source
 
 
-def attach_names(names: list[str], items: list[SourceText]) -> list[SourceText]:
+def attach_names(names: list[SourceText], items: list[SourceText]) -> list[SourceText]:
     """Return the items, each with its name before it.
 
     Raises
@@ -120,7 +122,9 @@ def attach_names(names: list[str], items: list[SourceText]) -> list[SourceText]:
     if len(names) != len(items):
         raise FormulaReadError("item-count", 1, str(len(items)), [str(len(names))])
     return [
-        SourceText(f"{name} = {item.text}", ((item.column(0),) * (len(name) + 3)) + item.columns)
+        SourceText(
+            f"{name.text} = {item.text}", (*name.columns, *[item.column(0)] * 3, *item.columns)
+        )
         for name, item in zip(names, items, strict=True)
     ]
 

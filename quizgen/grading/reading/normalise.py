@@ -12,6 +12,8 @@ from collections.abc import Callable
 from functools import lru_cache
 
 from quizgen.grading.reading.source_map import Rewrite, SourceText
+from quizgen.locale import cache_words
+from quizgen.locale.word_patterns import WordPattern, list_words
 from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.notation.pretty import BELOW, FROM_BELOW, LOWERED
 
@@ -31,21 +33,15 @@ BANGLA_LETTERS = str.maketrans("কখগঘঙচছজঝঞ", "ABCDEFGHIJ")
 LONE_LETTER = re.compile("(?<![\u0980-\u09ff])[ক-ঞ](?![\u0980-\u09ff])")
 """A Bangla letter that is no part of a word."""
 
-PICTURES = re.compile(
-    r"(?:(?<=[\s,;])|(?<=[:=()→–-])|^)(?:picture|pict?|photo|image|figure|version|number|no\.?|nr\.?|bild|foto|ছবি|চিত্র|নম্বর|নং)s?(?=\s|$)",
-    re.IGNORECASE,
-)
+PICTURES = WordPattern(r"(?:(?<=[\s,;])|(?<=[:=()→–-])|^)«pictures»(?=\s|$)", re.IGNORECASE)
 """Words before the number of a picture, which is its place or its label."""
 
-APPROXIMATE = r"ca\.|approx(?:\.|imately)?|about|circa|etwa|ungefähr|rund|প্রায়|প্রায়"
+_ABOUT = WordPattern(r"^ *(?:≈|~|∼|=|«about»(?![^\W\d_])) *", re.IGNORECASE)
 
-_ABOUT = re.compile(rf"^ *(?:≈|~|∼|=|(?:{APPROXIMATE})(?![^\W\d_])) *", re.IGNORECASE)
-
-_IS = r"(?: *(?:is|ist|lautet|হলো|হল|হচ্ছে)(?![^\W_]) *[:=]? *| *[:=ঃ] *)"
-ANSWER = re.compile(
-    r"^ *(?:(?:the|my|die|das|meine) )?"
-    rf"(?:(?:answer|ans|antwort|উত্তর)(?![^\W_])\.?(?:{_IS}| +)"
-    rf"|(?:lösung|ergebnis|result|solution|formula|formel|ফলাফল|ফল|সমাধান|সূত্র)(?![^\W_]){_IS})(?=\S)",
+_IS = r"(?: *«is»(?![^\W_]) *[:=]? *| *(?:[:=]|«colon») *)"
+ANSWER = WordPattern(
+    r"^ *(?:«the-or-my» )?"
+    rf"(?:«answer»(?![^\W_])\.?(?:{_IS}| +)|«result»(?![^\W_]){_IS})(?=\S)",
     re.IGNORECASE,
 )
 """What stands before an answer that is a sentence."""
@@ -53,13 +49,11 @@ ANSWER = re.compile(
 _X = re.compile(r"(?<=[\d)])(?<!^0)(?<![^\d.,]0) *[xXхХ] *(?=\d)")
 
 
-_TENS = {
-    3: ("thousand", "tausend", "Tsd", "হাজার"),
-    5: ("lakhs", "lakh", "lacs", "lac", "লাখ", "লক্ষ"),
-    6: ("millions", "million", "millionen", "mio", "মিলিয়ন", "নিযুত"),
-    7: ("crores", "crore", "কোটি"),
-}
-_EXPONENTS = {word.lower(): power for power, words in _TENS.items() for word in words}
+@cache_words
+def _list_exponents() -> dict[str, int]:
+    """Return the words that are a power of ten behind a number, with its exponent: ``lakh``."""
+    rows = (row.split(" ", 1) for row in list_words("numbers.multiples"))
+    return {word.lower(): len(size) - 1 for size, word in rows}
 
 
 def _make_character_replacer(pairs: dict[str, str]) -> Callable[[re.Match[str]], str]:
@@ -78,6 +72,9 @@ def _on_line(match: re.Match[str]) -> str:
     below = match[0].translate(FROM_BELOW)
     return f"_{below}" if match.string[match.start() - 1 : match.start()] == "'" else below
 
+
+_RAISED_MINUS = LOWERED | str.maketrans("−–", "--")
+"""Raised signs on the line, and the minus that no keyboard raises: ``10-²``."""
 
 REWRITES: dict[str, Rewrite] = {
     "direction marks around": (re.compile(f"^[{_DIRECTION}]+|[{_DIRECTION}]+$"), lambda _m: ""),
@@ -104,12 +101,12 @@ REWRITES: dict[str, Rewrite] = {
         _make_character_replacer(dict(zip("⟨⟩〈〉", "()()", strict=True))),
     ),
     "superscripts": (
-        re.compile(r"[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+"),
-        lambda m: "^" + (f"({t})" if len(t := m[0].translate(LOWERED)) > 1 else t),
+        re.compile(r"(?:[⁺⁻−]|(?<=10)[-–])?[⁰¹²³⁴⁵⁶⁷⁸⁹]+"),
+        lambda m: "^" + (f"({t})" if len(t := m[0].translate(_RAISED_MINUS)) > 1 else t),
     ),
     "subscripts": (re.compile(f"[{BELOW}]+"), _on_line),
     "vulgar fractions": (re.compile(r"(\d*) ?([¼-¾⅐-⅞])"), _rewrite_vulgar_fraction),
-    "classifiers": (re.compile(r"(?<=\d) ?-?(?:টি|টা|খানা|খানি)(?=[ ;,।.]|$)"), lambda _m: ""),
+    "classifiers": (WordPattern(r"(?<=\d) ?-?«classifiers»(?=[ ;,।.]|$)"), lambda _m: ""),
     "answer": (ANSWER, lambda _m: ""),
     "about": (_ABOUT, lambda _m: ""),
     "x between numbers": (_X, lambda _m: "*"),
@@ -119,8 +116,8 @@ REWRITES: dict[str, Rewrite] = {
         lambda m: f"{m[1]}*",
     ),
     "powers of ten in words": (
-        re.compile(rf"(?<=\d) ?({'|'.join(_EXPONENTS)})(?![^\W\d_])\.?", re.IGNORECASE),
-        lambda m: f"*10^{_EXPONENTS[m[1].lower()]}",
+        WordPattern(r"(?<=\d) ?(«numbers.multiples»)(?![^\W\d_])\.?", re.IGNORECASE),
+        lambda m: f"*10^{_list_exponents()[m[1].lower()]}",
     ),
 }
 """Name to pattern and replacement, in the order they are applied."""

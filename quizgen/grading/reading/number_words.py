@@ -4,62 +4,61 @@ from __future__ import annotations
 
 import re
 from fractions import Fraction
-from functools import cache, lru_cache
 
 from quizgen.core.errors import FormulaError
 from quizgen.grading.reading.units import TypedUnit, read_unit
-from quizgen.locale import list_languages, load_words
+from quizgen.locale import cache_words
+from quizgen.locale.word_patterns import (
+    WordPattern,
+    list_tables,
+    list_words,
+    set_of_words,
+)
 from quizgen.maths.numbers import to_fraction
 
 
-@cache
+@cache_words
 def list_number_words() -> dict[str, int]:
     """Return the words for whole numbers in every language, in small letters, to the number.
 
     Bangla ``নয়`` is nine and *not*: it counts only where nothing else stands before it.
     """
     words: dict[str, int] = {}
-    for lang in list_languages():
-        table = load_words(lang, "answers")["numbers"]
-        words |= {word: place for place, word in enumerate(table["counted"])}
+    for table in list_tables("numbers"):
+        own = {word: place for place, word in enumerate(table["counted"])}
+        own |= {word: int(value) for value, word in (one.split(" ", 1) for one in table["larger"])}
+        words |= own
         words |= {
-            word: int(value) for value, word in (one.split(" ", 1) for one in table["larger"])
+            form.format(tens=tens, one=one): value + added
+            for tens, value in own.items()
+            if value in range(20, 100, 10)
+            for one, added in own.items()
+            if 0 < added < 10
+            for form in table["tens-and-ones"]
         }
-    ones = list(words.items())
-    for tens, value in ones:
-        if value not in range(20, 100, 10):
-            continue
-        for one, added in (pair for pair in ones if 0 < pair[1] < 10):
-            words[f"{tens}-{one}"] = words[f"{tens} {one}"] = value + added
-            words[f"{one.removesuffix('s') if one == 'eins' else one}und{tens}"] = value + added
     return words
 
 
 _NUMBER = r"(\d+(?:\.\d+)?)"
 
 
-@cache
-def _list_multiples() -> dict[str, int]:
+@cache_words
+def list_multiples() -> dict[str, int]:
     """Return the words that multiply the number before them, in small letters: lakh, thousand."""
-    rows = [
-        row.split(" ", 1)
-        for lang in list_languages()
-        for row in load_words(lang, "answers")["numbers"]["multiples"]
-    ]
-    return {word.lower(): int(size) for size, word in rows}
+    rows = (row.split(" ", 1) for row in list_words("numbers.multiples"))
+    hundreds = dict.fromkeys(list_words("numbers.hundred"), HUNDRED)
+    return hundreds | {word.lower(): int(size) for size, word in rows}
 
 
-@cache
-def _summand_pattern() -> re.Pattern[str]:
-    """Return the pattern of ``10 lakh`` and what leads on to the next summand."""
-    words = "|".join(map(re.escape, sorted(_list_multiples(), key=len, reverse=True)))
-    return re.compile(
-        rf"{_NUMBER} ?({words})(?![\w\u0980-\u09ff])(?: (?:and|und|ও) | |$)", re.IGNORECASE
-    )
+_SUMMAND = WordPattern(
+    rf"{_NUMBER} ?(«numbers.multiples»|«numbers.hundred»)(?![\w\u0980-\u09ff])(?: «and» | |$)",
+    re.IGNORECASE,
+)
+"""``10 lakh``, and what leads on to the next summand."""
 
 
 _REST = re.compile(r"\d{1,3}(?=$| )")
-_PIECE = re.compile(rf"{_NUMBER} ?((?:[^\W\d]|[\u0980-\u09ff])+)(?:,? (?:and|und|ও|এবং) |,? |$)")
+_PIECE = WordPattern(rf"{_NUMBER} ?((?:[^\W\d]|[\u0980-\u09ff])+)(?:,? «and» |,? |$)")
 
 
 def replace_number_word(text: str) -> str:
@@ -68,11 +67,12 @@ def replace_number_word(text: str) -> str:
     return f"{found[0]}{text[found[1] :]}" if found else text
 
 
-_SPOKEN = re.compile(r" ?-?((?:[^\W\d_]|[\u0980-\u09ff])+)")
-_AND = frozenset({"and", "und", "ও"})
-_A = frozenset({"a", "one", "ein", "eine", "এক"})
-_AND_A_HALF = re.compile(r" and a half(?!\w)", re.IGNORECASE)
-_POINT = re.compile(r"(?:^| )(?:point|komma|দশমিক) (?=[^\W\d])", re.IGNORECASE)
+_SPOKEN = WordPattern(
+    r" ?-?(«numbers.larger»(?![-\w\u0980-\u09ff])|(?:[^\W\d_]|[\u0980-\u09ff])+)", re.IGNORECASE
+)
+"""One word, or several that are one number: ``quatre-vingt-dix``."""
+_AND_A_HALF = WordPattern(r" «numbers.and-a-half»(?!\w)", re.IGNORECASE)
+_POINT = WordPattern(r"(?:^| )«point» (?=[^\W\d])", re.IGNORECASE)
 
 
 def _read_spoken_number(text: str) -> tuple[str, int] | None:
@@ -97,8 +97,12 @@ def _read_spoken_whole(text: str) -> tuple[int | None, int]:
     position = end = 0
     while (match := _SPOKEN.match(text, position)) is not None:
         word, position = match[1].lower(), match.end()
-        size, one = _list_multiples().get(word, 0), _find_spoken_word(word)
-        if word in _A and group is None and _is_multiple_next(text, position):
+        size, one = list_multiples().get(word, 0), _find_spoken_word(word)
+        if (
+            word in set_of_words("numbers.a")
+            and group is None
+            and _is_multiple_next(text, position)
+        ):
             group = 1
         elif size == HUNDRED and group and group < HUNDRED:
             group *= HUNDRED
@@ -106,7 +110,7 @@ def _read_spoken_whole(text: str) -> tuple[int | None, int]:
             closed, group, last = closed + (group or 1) * size, None, size
         elif one is not None and (group is None or _goes_on(group, one)):
             group = (group or 0) + one
-        elif word in _AND and end:
+        elif word in set_of_words("and") and end:
             continue
         else:
             break
@@ -127,21 +131,28 @@ def _goes_on(group: int, one: int) -> bool:
 def _is_multiple_next(text: str, position: int) -> bool:
     """Return whether the next word multiplies, as after ``a`` in ``a hundred``."""
     match = _SPOKEN.match(text, position)
-    return match is not None and match[1].lower() in _list_multiples()
+    return match is not None and match[1].lower() in list_multiples()
 
 
-@lru_cache(maxsize=1024)
+@cache_words
+def _list_joints() -> tuple[tuple[str, int], ...]:
+    """Return the words that multiply within one word, such as ``tausend``, the largest first."""
+    rows = (row.split(" ", 1) for row in list_words("numbers.inside"))
+    return tuple(sorted(((word, int(size)) for size, word in rows), key=lambda one: -one[1]))
+
+
 def _find_spoken_word(word: str) -> int | None:
     """Return the number of one word, also of a German compound; None if it is none."""
     known = list_number_words().get(word)
     if known is not None:
         return known
-    for joint, size in (("tausend", 1000), ("hundert", HUNDRED)):
+    for joint, size in _list_joints():
         before, found, behind = word.partition(joint)
         if not found:
             continue
         times = _find_spoken_word(before) if before else 1
-        rest = _find_spoken_word(behind.removeprefix("und")) if behind else 0
+        joined = next((one for one in list_words("and") if behind.startswith(one)), "")
+        rest = _find_spoken_word(behind.removeprefix(joined)) if behind else 0
         return None if times is None or rest is None else times * size + rest
     return None
 
@@ -201,8 +212,8 @@ def add_large_words(text: str) -> str:
     """Return ``1 crore 10 lakh 59 thousand`` as one number; the text itself if no such sum."""
     found, position, last = Fraction(0), 0, 10**9
     count = 0
-    while (match := _summand_pattern().match(text, position)) is not None:
-        size = _list_multiples()[match[2].lower()]
+    while (match := _SUMMAND.match(text, position)) is not None:
+        size = list_multiples()[match[2].lower()]
         if size >= last:
             return text
         last = size

@@ -51,6 +51,25 @@ def split_quantity(source: SourceText) -> TypedQuantity:
     )
 
 
+def put_unit_behind(typed: str, asked: str) -> str:
+    """Return ``102.5 mm`` for ``mm 102.5``, where a unit of the kind asked stands first.
+
+    With an equals sign it would be a name, ``s = 3``.
+    """
+    match = _UNIT_FIRST.fullmatch(typed.strip())
+    if match is None:
+        return typed
+    try:
+        first = read_unit(match[1])
+    except FormulaError:
+        return typed
+    alike = first.dimension == read_unit(asked).dimension
+    return f"{match[2]} {match[1]}" if alike else typed
+
+
+_UNIT_FIRST = re.compile(r"([^\W\d_]{1,12}(?:/[^\W\d_]{1,12})?|[%°])(?: ?: ?| )([-+−]?[\d.,]*\d)")
+
+
 def _move_bracket_to_unit(number: str, rest: str) -> tuple[str, str]:
     """Return number and rest of ``66.67 (mm)``, where the bracket belongs to the unit."""
     kept = number.rstrip(" (")

@@ -7,7 +7,9 @@ from collections.abc import Callable
 
 import msgspec
 
-Rewrite = tuple[re.Pattern[str], Callable[[re.Match[str]], str]]
+from quizgen.locale.word_patterns import WordPattern
+
+Rewrite = tuple[re.Pattern[str] | WordPattern, Callable[[re.Match[str]], str]]
 """What is looked for, and what stands in its place."""
 
 
@@ -33,7 +35,7 @@ class SourceText(msgspec.Struct, frozen=True):
         return SourceText(self.text[start:end], self.columns[start:end])
 
     def substitute(
-        self, pattern: re.Pattern[str], new: Callable[[re.Match[str]], str]
+        self, pattern: re.Pattern[str] | WordPattern, new: Callable[[re.Match[str]], str]
     ) -> SourceText:
         """Return a text with matches replaced, each at the column where the match began."""
         if pattern.search(self.text) is None:

@@ -13,7 +13,6 @@ from functools import singledispatch
 
 from markupsafe import Markup
 
-from quizgen.bank.markdown import PlainText
 from quizgen.lms.answer_ranges import AnswerRange
 from quizgen.lms.interactions import (
     ChoiceInteraction,
@@ -31,6 +30,7 @@ from quizgen.lms.markup import field_html, option_html, to_course_html
 from quizgen.lms.qti.dialect import Attributes, format_number_plain
 from quizgen.lms.qti.response_rules import ResponseRules
 from quizgen.locale import translate
+from quizgen.typeset.prose import PlainText
 
 # Characters that a field for a number or a word has room for.
 FIELD_LENGTH = 20

@@ -6,16 +6,15 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from quizgen.bank.markdown import Block, Inline, PlainText
 from quizgen.bank.variant import Variant
 from quizgen.grading.spec import decode_spec
 from quizgen.kinds.asking import LETTERS
 from quizgen.kinds.choice import ChoiceSpec
 from quizgen.kinds.contract import InputControl
-from quizgen.question.inlines import to_inlines
 from quizgen.question.interpolation import inlines_as_typed, inlines_to_text
 from quizgen.question.levels.contract import LevelPart
 from quizgen.question.solution import PartSolution, SolutionStep, SolvedMisconception
+from quizgen.typeset.prose import Block, Inline, PlainText, to_inlines
 
 Sentence = Callable[[str], tuple[Inline, ...]]
 """A sentence by language."""

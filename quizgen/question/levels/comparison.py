@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from quizgen.bank.markdown import Emphasis, Inline, ListBlock, Paragraph
 from quizgen.bank.sampler import pick_index, shuffle
 from quizgen.maths.precision import working_precision
-from quizgen.question.inlines import translate_inlines
 from quizgen.question.levels.choice_part import LevelOption, make_choice_part
 from quizgen.question.levels.consequence import Consequence, value_inlines
 from quizgen.question.levels.contract import LevelPart
@@ -21,6 +19,7 @@ from quizgen.question.levels.perturbations import (
 )
 from quizgen.question.levels.steps import level_seed
 from quizgen.question.worked_steps import quantity_inlines
+from quizgen.typeset.prose import Emphasis, Inline, ListBlock, Paragraph, translate_inlines
 
 ANSWERS = ("first", "second", "equal")
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from quizgen import typeset
-from quizgen.bank.markdown import Block, Emphasis, Inline, Paragraph, PlainText
 from quizgen.bank.sampler import shuffle
 from quizgen.bank.variant import Variant
 from quizgen.grading.spec import decode_spec
@@ -26,7 +25,6 @@ from quizgen.maths.numbers import (
 from quizgen.maths.tree import Call, Num, Sym
 from quizgen.maths.units import format_unit
 from quizgen.maths.values import Value
-from quizgen.question.inlines import TypesetMaths, to_inlines, translate_inlines
 from quizgen.question.interpolation import NBSP, Interpolator, inlines_to_text, join_unit
 from quizgen.question.levels.contract import LevelPart
 from quizgen.question.levels.perturbations import (
@@ -44,6 +42,16 @@ from quizgen.question.solution import (
     solved_misconceptions,
 )
 from quizgen.question.worked_steps import quantity_inlines
+from quizgen.typeset.prose import (
+    Block,
+    Emphasis,
+    Inline,
+    Paragraph,
+    PlainText,
+    TypesetMaths,
+    to_inlines,
+    translate_inlines,
+)
 
 
 @dataclass(frozen=True)

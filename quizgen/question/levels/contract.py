@@ -7,13 +7,15 @@ from typing import Protocol
 
 import msgspec
 
-from quizgen.bank.markdown import Block, Emphasis, Inline, Paragraph
 from quizgen.bank.variant import Variant
 from quizgen.grading.spec import AnySpec
 from quizgen.kinds.contract import LINE, InputControl
 from quizgen.kinds.work import Unit, sum_minutes
 from quizgen.question.solution import PartSolution, Solution
+from quizgen.typeset.prose import Block, Emphasis, Inline, Paragraph
 
+ADDED_WORDS = 17
+"""Words of a part that is put before an authored one, on average."""
 WRITTEN = 25
 """Words that say which step is wrong, why, and what is right."""
 
@@ -74,22 +76,23 @@ def without_bold_questions(block: Block) -> Block:
     return Paragraph(tuple(plain))
 
 
-def estimate_part_minutes(part: LevelPart, *, solved: bool) -> Fraction:
+def estimate_part_minutes(part: LevelPart, *, added: bool) -> Fraction:
     """Return the minutes of a part that a level makes: options to weigh, or a value to find.
 
     Parameters
     ----------
     part : LevelPart
-    solved : bool
-        Whether what its solution computes is computed in any case, for another part.
+    added : bool
+        Whether it stands before an authored part, whose minutes have what both compute. Its words
+        count as on average, so that a paper takes as long in every language.
     """
-    work: dict[Unit, int | Fraction] = {"question": 1}
+    work: dict[Unit, int | Fraction] = {"word read": ADDED_WORDS} if added else {"question": 1}
     if part.solved.scheme:
         work["word written"] = WRITTEN
     elif part.options:
         work["tick"] = Fraction(len(part.options), 2)
     else:
         work["cell"] = 1
-    if not solved:
+    if not added:
         work["step"] = max(1, len(part.solved.lines))
     return sum_minutes(work)

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from quizgen.bank.markdown import Block, Emphasis, Inline, ListBlock, Paragraph, PlainText
 from quizgen.bank.sampler import shuffle
 from quizgen.bank.variant import Variant, leading_digits
 from quizgen.core.errors import MathError
@@ -18,7 +17,6 @@ from quizgen.kinds.rubric import RubricSpec
 from quizgen.locale import translate
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.numbers import format_rounded
-from quizgen.question.inlines import translate_inlines
 from quizgen.question.interpolation import Interpolator, inlines_to_text
 from quizgen.question.levels.choice_part import LevelOption, make_choice_part
 from quizgen.question.levels.contract import LevelPart
@@ -34,6 +32,15 @@ from quizgen.question.levels.steps import (
 )
 from quizgen.question.solution import PartSolution, SchemeLine, solution_step
 from quizgen.question.worked_steps import quantity_inlines, typeset_step
+from quizgen.typeset.prose import (
+    Block,
+    Emphasis,
+    Inline,
+    ListBlock,
+    Paragraph,
+    PlainText,
+    translate_inlines,
+)
 
 FEWEST, MOST = 2, 8
 """Steps of a solution in which a mistake is looked for."""

@@ -8,7 +8,7 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from quizgen.bank.markdown import FIELD_MARK, Block, Emphasis, ListBlock, Paragraph, slot_names
+from quizgen.bank.markdown import FIELD_MARK, slot_names
 from quizgen.bank.rules import PART_LABELS
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import BankError
@@ -16,12 +16,12 @@ from quizgen.core.positions import TEXT
 from quizgen.kinds.contract import AskedPart, LabelledName
 from quizgen.locale import translate
 from quizgen.maths.numbers import parse_written_number
-from quizgen.question.inlines import PlacedField, to_inlines
 from quizgen.question.interpolation import Interpolator
 from quizgen.question.levels.contract import Choice, LevelPart, LevelQuestion
 from quizgen.question.part_context import ask_part
 from quizgen.question.placed_fields import can_be_placed, iter_placed_fields
 from quizgen.question.solution import build_solution, solve_part
+from quizgen.typeset.prose import Block, Emphasis, ListBlock, Paragraph, PlacedField, to_inlines
 
 STATEMENT = "claim"
 """The blank in a part's section that its statement fills."""

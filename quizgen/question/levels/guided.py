@@ -15,7 +15,6 @@ from functools import lru_cache
 import msgspec
 from msgspec.structs import replace
 
-from quizgen.bank.markdown import Block, Emphasis, Inline, Paragraph
 from quizgen.bank.sampler import pick_index
 from quizgen.bank.variant import Variant
 from quizgen.core.shares import share_points
@@ -24,7 +23,6 @@ from quizgen.kinds.asking import misconception_specs
 from quizgen.kinds.contract import AskedPart, asked_quantities
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.tree import Sym, names_in
-from quizgen.question.inlines import begin_sentence, join_inlines, to_inlines, translate_inlines
 from quizgen.question.interpolation import Interpolator
 from quizgen.question.levels import exam
 from quizgen.question.levels.choice_part import LevelOption, make_choice_part
@@ -54,6 +52,16 @@ from quizgen.question.levels.steps import (
 from quizgen.question.part_context import authored_answer
 from quizgen.question.solution import PartSolution, solution_step, solved_misconceptions
 from quizgen.question.worked_steps import quantity_inlines
+from quizgen.typeset.prose import (
+    Block,
+    Emphasis,
+    Inline,
+    Paragraph,
+    begin_sentence,
+    join_inlines,
+    to_inlines,
+    translate_inlines,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,9 +191,9 @@ def ask(drawn: Variant, lang: str) -> LevelQuestion:
     solution = replace(usual.solution, parts=tuple(part.solved for part in parts))
     stem = usual.stem if len(groups) > 1 else tuple(map(without_bold_questions, usual.stem))
     added = len(parts) - len(usual.parts)
-    made = [part for group in groups if len(group) > 1 for part in group]
+    before = (part for group in groups for part in group[:-1])
     minutes = sum(
-        (estimate_part_minutes(part, solved=True) for part in made), drawn.template.minutes
+        (estimate_part_minutes(part, added=True) for part in before), drawn.template.minutes
     )
     return LevelQuestion(stem, parts, solution, minutes if added else None)
 

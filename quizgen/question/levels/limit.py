@@ -7,7 +7,6 @@ from fractions import Fraction
 
 from flint import fmpq
 
-from quizgen.bank.markdown import Emphasis, Inline, Paragraph, PlainText
 from quizgen.bank.sampler import shuffle
 from quizgen.bank.variant import Variant
 from quizgen.grading.spec import ScalarSpec, decode_spec
@@ -18,7 +17,6 @@ from quizgen.maths.limits import find_limit
 from quizgen.maths.numbers import format_for_key
 from quizgen.maths.precision import working_precision
 from quizgen.maths.scaling import scaling_exponent
-from quizgen.question.inlines import to_inlines, translate_inlines
 from quizgen.question.interpolation import inlines_to_text
 from quizgen.question.levels.consequence import Consequence, value_inlines
 from quizgen.question.levels.contract import LevelPart
@@ -34,6 +32,14 @@ from quizgen.question.levels.perturbations import (
 from quizgen.question.levels.steps import applicable_branch, level_seed
 from quizgen.question.solution import PartSolution, SolvedMisconception
 from quizgen.question.worked_steps import quantity_inlines
+from quizgen.typeset.prose import (
+    Emphasis,
+    Inline,
+    Paragraph,
+    PlainText,
+    to_inlines,
+    translate_inlines,
+)
 
 SHOWN = (10, 100, 1000)
 """How many times as large, or as small, a quantity is in the values that a solution shows."""

@@ -9,7 +9,6 @@ from functools import cached_property
 
 from flint import fmpq
 
-from quizgen.bank.markdown import Inline, PlainText
 from quizgen.bank.sampler import list_candidates, shuffle
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import MathError
@@ -23,10 +22,10 @@ from quizgen.maths.precision import working_precision
 from quizgen.maths.scaling import scaling_exponent
 from quizgen.maths.tree import Call, names_in, walk_tree
 from quizgen.maths.values import Value
-from quizgen.question.inlines import translate_inlines
 from quizgen.question.levels.steps import applicable_branch, has_name, level_seed, stated_quantities
 from quizgen.question.part_context import authored_answer
 from quizgen.question.worked_steps import quantity_inlines
+from quizgen.typeset.prose import Inline, PlainText, translate_inlines
 
 SCALES = tuple(map(Fraction, ("2", "3", "4", "1/2", "1/3", "1/4")))
 """Factors that have a word of their own."""

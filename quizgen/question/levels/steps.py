@@ -13,17 +13,7 @@ from flint import fmpq
 
 from quizgen import typeset
 from quizgen.bank.form_comparison import APART
-from quizgen.bank.markdown import (
-    Block,
-    CodeBlock,
-    Inline,
-    InlineCode,
-    InlineFormula,
-    LaidOutFormula,
-    PlainText,
-    leaves,
-    slot_names,
-)
+from quizgen.bank.markdown import leaves, slot_names
 from quizgen.bank.sampler import shuffle
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import MathError
@@ -39,11 +29,20 @@ from quizgen.maths.precision import working_precision
 from quizgen.maths.tolerance import RULES
 from quizgen.maths.tree import Call, Expr, Num, Sym, names_in, walk_tree
 from quizgen.maths.values import Value
-from quizgen.question.inlines import TypesetMaths
 from quizgen.question.interpolation import format_quantity
 from quizgen.question.part_context import VariantPart, authored_answer
 from quizgen.question.worked_steps import value_node, value_typed
 from quizgen.typeset.names import iter_names_written
+from quizgen.typeset.prose import (
+    Block,
+    CodeBlock,
+    Inline,
+    InlineCode,
+    InlineFormula,
+    LaidOutFormula,
+    PlainText,
+    TypesetMaths,
+)
 
 USUAL = {"rel": "0.005"}
 """What is accepted where the rule of the part does not fit the step."""

@@ -13,7 +13,6 @@ from functools import lru_cache
 
 from msgspec.structs import replace
 
-from quizgen.bank.markdown import Block, Emphasis, ListBlock, Paragraph, PlainText
 from quizgen.bank.sampler import pick_index, shuffle
 from quizgen.bank.variant import Variant
 from quizgen.core.shares import share_points
@@ -34,6 +33,7 @@ from quizgen.question.levels.error_spotting import choose_faulty_solution
 from quizgen.question.levels.limit import choose_limit
 from quizgen.question.levels.perturbations import Perturbations
 from quizgen.question.levels.steps import level_seed, part_labels
+from quizgen.typeset.prose import Block, Emphasis, ListBlock, Paragraph, PlainText
 
 READ_TASK = Fraction(1)
 """Minutes for reading the task, in which nothing is asked."""
@@ -100,7 +100,7 @@ def ask(drawn: Variant, lang: str) -> LevelQuestion:
 
 def _count_minutes(made: list[LevelPart], kept: Iterable[int]) -> Fraction:
     """Return the minutes for reading the task and answering the parts at some places."""
-    return sum((estimate_part_minutes(made[place], solved=False) for place in kept), READ_TASK)
+    return sum((estimate_part_minutes(made[place], added=False) for place in kept), READ_TASK)
 
 
 def _relabel_part(part: LevelPart, label: str, points: Fraction) -> LevelPart:

@@ -1,7 +1,7 @@
 // A histogram before and after normalising, with and without a clamp.
 // Source: Burger & Burge, Digital Image Processing, 2nd ed. (2016), sections 4.1.2 and 4.4.
 
-import { path } from "./moving.js";
+import { path } from "./lines.js";
 
 export const SIZE = [320, 208];
 // Pixels at the values -40, -30, ... 320 of a range of 256; larger ranges are stretched.

@@ -1,7 +1,7 @@
 // A square grid through a lens with two radial coefficients, and one point of it.
 // Source: Hartley & Zisserman, Multiple View Geometry, 2nd ed. (2004), section 7.4, eq. 7.12.
 
-import { path, row } from "./moving.js";
+import { path, row } from "./lines.js";
 
 export const SIZE = [240, 240];
 const MIDDLE = 120, SCALE = 72;

@@ -1,7 +1,7 @@
 // How bright light of each wavelength looks, by day and in the dark, and what a filter leaves of it.
 // Source: CIE 018:2019, The Basis of Physical Photometry (V of 1924, V' of 1951, linear between table points).
 
-import { path, row } from "./moving.js";
+import { path, row } from "./lines.js";
 
 export const SIZE = [320, 190];
 const [FIRST, LAST, APART] = [380, 780, 5]; // nm

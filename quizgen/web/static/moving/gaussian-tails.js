@@ -1,7 +1,7 @@
 // The normal density, and its share beyond k standard deviations.
 // Source: Abramowitz & Stegun, Handbook of Mathematical Functions (1964), 7.1.5, 7.1.14 and 26.2.1.
 
-import { path, row } from "./moving.js";
+import { path, row } from "./lines.js";
 
 export const SIZE = [320, 180];
 const [FLOOR, TALL, WIDE] = [156, 140, 16]; // the axis, the height of the density of sigma = 1, and where the axis ends

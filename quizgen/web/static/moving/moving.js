@@ -14,11 +14,6 @@ const FIGURES = {
 const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 const REST = 700; // ms without a change, after which the sentence is read out
 
-// A path through points.
-export const path = (points) => "M" + points.map(([x, y]) => `${x.toFixed(2)} ${y.toFixed(2)}`).join("L");
-// Numbers from one to another, both included.
-export const row = (first, last, count) => Array.from({ length: count + 1 }, (_, i) => first + (last - first) * i / count);
-
 class MovingFigure extends HTMLElement {
   connectedCallback() {
     const fold = this.closest("details");

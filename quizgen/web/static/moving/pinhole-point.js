@@ -1,7 +1,7 @@
 // A point and its image through a pinhole, seen from the side. The point can be dragged.
 // Source: Hartley & Zisserman, Multiple View Geometry, 2nd ed. (2004), eq. 6.1.
 
-import { path } from "./moving.js";
+import { path } from "./lines.js";
 
 export const SIZE = [320, 210];
 const [ORIGIN, AXIS, DEEP, HIGH] = [112, 105, 16, 6]; // where the pinhole is, and a unit of depth and of height

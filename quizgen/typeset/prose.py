@@ -1,20 +1,134 @@
-"""Answers, hints and values as pieces of a sentence: what Unicode can only hint at is typeset."""
+"""Pieces of a sentence: words, mathematics, code and places to fill, as read and as said.
+
+What Unicode can only hint at is typeset.
+"""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
+from typing import TYPE_CHECKING, Protocol
 
 import msgspec
 
 from quizgen import typeset
-from quizgen.bank.markdown import Inline, PlainText
-from quizgen.bank.pictures import PictureFile
 from quizgen.locale import FIRST, localise_numbers, translate
 from quizgen.maths.notation import pretty
 from quizgen.maths.notation.names import NAME
-from quizgen.typeset.nodes import Word
+from quizgen.maths.tree import Expr
+from quizgen.typeset.nodes import Node, Word
+
+
+class PlainText(msgspec.Struct, frozen=True, array_like=True, tag="w"):
+    """Words of a sentence, without mathematics."""
+
+    text: str
+
+
+class Slot(msgspec.Struct, frozen=True, array_like=True, tag="s"):
+    """A place to be filled: a drawn value, or a drawn phrase."""
+
+    name: str
+
+
+class InlineFormula(msgspec.Struct, frozen=True, array_like=True, tag="f"):
+    """Mathematics in a sentence, as a formula tree."""
+
+    expr: Expr
+
+
+class LaidOutFormula(msgspec.Struct, frozen=True, array_like=True, tag="x"):
+    """Mathematics in a sentence that is laid out already, with leaves for drawn values.
+
+    ``source`` is how it stands in the file.
+    """
+
+    node: Node
+    source: str
+
+
+class InlineCode(msgspec.Struct, frozen=True, array_like=True, tag="c"):
+    """Program text in a sentence."""
+
+    text: str
+
+
+class Emphasis(msgspec.Struct, frozen=True, array_like=True, tag="e"):
+    """Emphasised (``em``) or strong (``strong``) text."""
+
+    style: str
+    children: tuple[Inline, ...]
+
+
+class PictureLink(msgspec.Struct, frozen=True, array_like=True, tag="l"):
+    """A picture from a file beside the words, and what it shows in words."""
+
+    file: str
+    alt: tuple[Inline, ...]
+
+
+class TypesetFormula(Protocol):
+    """What stands in the place of a formula or a ``PictureLink`` once filled."""
+
+    @property
+    def typed_text(self) -> str:
+        """Return the formula as a learner would type it."""
+
+    @property
+    def text(self) -> str:
+        """Return the formula in plain text, for people."""
+
+
+class RoundedMarker(msgspec.Struct, frozen=True):
+    """Says that what follows is rounded: an equals sign in front of it becomes ≈."""
+
+
+if TYPE_CHECKING:
+    Inline = (
+        PlainText
+        | Slot
+        | InlineFormula
+        | LaidOutFormula
+        | InlineCode
+        | Emphasis
+        | PictureLink
+        | RoundedMarker
+        | TypesetFormula
+    )
+else:  # what a file gives, and what is kept of it
+    Inline = PlainText | Slot | InlineFormula | LaidOutFormula | InlineCode | Emphasis | PictureLink
+"""A piece of a sentence; once filled, without ``Slot``, ``Formula``, ``PictureLink``, ``About``."""
+Unfilled = Slot | InlineFormula | LaidOutFormula | PictureLink
+
+
+class Paragraph(msgspec.Struct, frozen=True, array_like=True, tag="p"):
+    """One paragraph."""
+
+    children: tuple[Inline, ...]
+
+
+class ListBlock(msgspec.Struct, frozen=True, array_like=True, tag="i"):
+    """A list; if ``ordered``, it is numbered from 1."""
+
+    items: tuple[tuple[Block, ...], ...]
+    ordered: bool = False
+
+
+class CodeBlock(msgspec.Struct, frozen=True, array_like=True, tag="b"):
+    """Lines of program text."""
+
+    text: str
+
+
+class TableBlock(msgspec.Struct, frozen=True, array_like=True, tag="t"):
+    """A table with a head row."""
+
+    head: tuple[tuple[Inline, ...], ...]
+    rows: tuple[tuple[tuple[Inline, ...], ...], ...]
+
+
+Block = Paragraph | ListBlock | CodeBlock | TableBlock
 
 
 class TypesetMaths(msgspec.Struct, frozen=True):
@@ -45,28 +159,6 @@ class TypesetLayout(TypesetMaths, frozen=True):
 def typeset_layout(node: typeset.Node) -> TypesetLayout:
     """Return a laid out formula ready for printing."""
     return TypesetLayout(node, typeset.to_text(node))
-
-
-class PlacedPicture(msgspec.Struct, frozen=True):
-    """A picture in a sentence, and what it shows in words whose blanks are filled."""
-
-    picture: PictureFile
-    told: tuple[Inline, ...]
-
-    @property
-    def alt(self) -> str:
-        """Return what it shows in words, for those who cannot see it."""
-        return "".join(part.text for part in self.told)  # type: ignore[union-attr]
-
-    @property
-    def text(self) -> str:
-        """Return what stands in its place in plain text."""
-        return f"[{self.alt}]"
-
-    @property
-    def typed_text(self) -> str:
-        """Return the same as ``text``: nobody types a picture."""
-        return self.text
 
 
 class PlacedField(msgspec.Struct, frozen=True):
