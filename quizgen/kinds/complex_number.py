@@ -286,16 +286,9 @@ def input_hints(spec: ComplexSpec, lang: str) -> tuple[TextOrInlines, ...]:
 def explain_key(spec: ComplexSpec, _lang: str) -> TextOrInlines:
     """The number as it is written by hand, with its unit."""
     number = _typeset_number(spec)
-<<<<<<< HEAD
     if not spec.unit or (spec.form == "polar" and spec.tolerance):
         return spec.typeset_with_unit(number)
-    from quizgen.bank.markdown import PlainText
-    from quizgen.question.inlines import to_inlines
-=======
-    if not spec.unit:
-        return number
     from quizgen.typeset.prose import PlainText, to_inlines
->>>>>>> main
 
     return spec.typeset_with_unit((PlainText("("), *to_inlines(number), PlainText(")")))
 

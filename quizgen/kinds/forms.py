@@ -185,8 +185,7 @@ class EntriesSpec(WordSpec, kw_only=True, frozen=True):
 
     def typeset_with_unit(self, key: TextOrInlines) -> TextOrInlines:
         """Return a typeset key with its unit, if it has one."""
-        from quizgen.bank.markdown import PlainText
-        from quizgen.question.inlines import to_inlines
+        from quizgen.typeset.prose import PlainText, to_inlines
 
         unit = f"\N{NO-BREAK SPACE}{format_unit(self.unit)}"
         return (*to_inlines(key), PlainText(unit)) if self.unit else key

@@ -16,12 +16,8 @@ from quizgen.grading.reading.literals import with_decimal_points
 from quizgen.grading.reading.normalise import normalise_typed
 from quizgen.grading.reading.numbers import read_number
 from quizgen.grading.reading.source_map import SourceText
-<<<<<<< HEAD
-from quizgen.grading.rounding import format_exact_or_figures, format_key
-=======
 from quizgen.grading.reading.written_intervals import write_interval
-from quizgen.grading.rounding import format_exact_or_figures
->>>>>>> main
+from quizgen.grading.rounding import format_exact_or_figures, format_key
 from quizgen.grading.spec import NumericSpec
 from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
 from quizgen.kinds.asking import (

@@ -22,13 +22,8 @@ from quizgen.grading.reading.angle_spellings import list_angle_spellings
 from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.equalities import EqualitySide, read_typed_sides
 from quizgen.grading.reading.numbers import ReadNumber
-<<<<<<< HEAD
-from quizgen.grading.reading.quantities import TypedQuantity
-from quizgen.grading.reading.units import TypedUnit, listed_unit, part_joined_units
-=======
 from quizgen.grading.reading.quantities import TypedQuantity, put_unit_behind
-from quizgen.grading.reading.units import TypedUnit, listed_unit
->>>>>>> main
+from quizgen.grading.reading.units import TypedUnit, listed_unit, part_joined_units
 from quizgen.grading.rounding import format_key
 from quizgen.grading.spec import COUNTED, ScalarSpec, is_large_count
 from quizgen.grading.verdict import HALF, Verdict, attach_values, partial, wrong
@@ -126,16 +121,7 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
         FormulaReadError
             If it cannot be read.
         """
-<<<<<<< HEAD
-        try:
-            sides = read_typed_sides(part_joined_units(typed, self.unit), options.decimal)
-        except FormulaReadError as error:
-            if error.expected and error.found.lower() == self.unit.lower():
-                error.expected = (self.unit,)  # ev is eV where that is asked, not EV
-            raise
-        return best_verdict(_judge_side(self, side, options) for side in sides)
-=======
-        typed = put_unit_behind(typed, self.unit)
+        typed = put_unit_behind(part_joined_units(typed, self.unit), self.unit)
         found: list[Verdict] = []
         for text in self._list_spellings(typed):
             try:
@@ -155,7 +141,6 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
         if self.unit not in {"deg", "°"}:
             return (typed,)
         return [typed, *(_with_degrees(text) for text in list_angle_spellings(typed))]
->>>>>>> main
 
     @property
     def printed_unit(self) -> str:
