@@ -70,8 +70,6 @@ def put_unit_behind(typed: str, asked: str) -> str:
 _UNIT_FIRST = re.compile(
     r"([^\W\d_]{1,12}(?:/[^\W\d_]{1,12})?|[%°€$£৳])(?: ?: ?| |(?<=[€$£৳]))([-+−]?[\d.,]*\d)"
 )
-    r"([^\W\d_]{1,12}(?:/[^\W\d_]{1,12})?|[%°€$£৳])(?: ?: ?| |(?<=[€$£৳]))([-+−]?[\d.,]*\d)"
-)
 
 
 def _move_bracket_to_unit(number: str, rest: str) -> tuple[str, str]:
