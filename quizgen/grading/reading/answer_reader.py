@@ -14,9 +14,8 @@ from fractions import Fraction
 from typing import Literal, NamedTuple, TypeAlias
 
 from quizgen.core.errors import FormulaError
-from quizgen.grading.reading.bound_values import bind_values
 from quizgen.grading.reading.factor_words import is_shrinking, read_factor
-from quizgen.grading.reading.joined_values import rejoin_values, repeat_value
+from quizgen.grading.reading.joined_values import bind_values, rejoin_values, repeat_value
 from quizgen.grading.reading.labels import NAME, AskedNames, find_name
 from quizgen.grading.reading.literals import LITERAL
 from quizgen.grading.reading.normalise import LONGEST_PROSE, REWRITES
