@@ -264,7 +264,8 @@ _INDEXED = re.compile(r"(^|[,;/\n] *)(\d{1,4}) ?[:=] ?(?=[-+−.]?\d)")
 
 def _list_barer_formulas(text: str) -> Iterator[str]:
     """Yield a formula without words behind it, and the last side of several."""
-    text = write_spoken_formula(_WORDS_BEHIND.sub("", text))
+    text = _WORDS_BEHIND.sub(lambda m: m[0] if says_otherwise(m[0]) else "", text)
+    text = write_spoken_formula(text)
     yield text
     if "=" in text:
         yield text.rpartition("=")[2]
