@@ -36,6 +36,7 @@ from quizgen.kinds.contract import (
 )
 from quizgen.kinds.forms import format_plain, require_form
 from quizgen.locale import translate
+from quizgen.locale.word_patterns import WordPattern
 from quizgen.maths.notation import FormulaReadError, pretty
 from quizgen.maths.numbers import is_short_decimal
 from quizgen.maths.tree import Call, Expr, Num
@@ -162,7 +163,7 @@ class IntervalValue(msgspec.Struct, frozen=True):
 
 _RANGE = re.compile(r"([-+−]?\d+(?:[.,]\d+)?) ?[-–—] ?(\d+(?:[.,]\d+)?)")
 """An interval without brackets, where nobody asks whether its bounds belong to it."""
-_INFINITE = re.compile(r"([-+]?) ?(?:∞|inf(?:inity)?|infty|oo|unendlich|অসীম)", re.IGNORECASE)
+_INFINITE = WordPattern(r"([-+]?) ?(?:∞|inf(?:inity)?|infty|oo|«wordings.infinity»)", re.IGNORECASE)
 _NAMED = re.compile(rf"{NAME} ?(?:∈|in(?= )) ?|{NAME} ?[=:] ?(?=[\[\](])")
 _WRAPPED = re.compile(r"[(\[{] ?[\[\](][^\[\](){}]+[\])\[] ?[)\]}]|\{[^{}]*\}")
 _BRACKETED = re.compile(r"([\[\](]) ?(.+?) ?([\])\[])")
@@ -173,7 +174,7 @@ _CHAIN = re.compile(
 
 
 # Without the blanks around it: those would be tried from each of many blanks in a row.
-_JOINED = re.compile(r"∪|\\cup\b|\b(?:or|oder|union|[Uu])\b|বা|∨")
+_JOINED = WordPattern(r"∪|\\cup\b|(?<!\w)(?:«or»|union|[Uu])(?!\w)|∨")
 _EMPTY = frozenset({"{}", "∅", "{ }", "empty", "leer"})
 EMPTY = "{}"
 """How a union of no intervals is written."""
