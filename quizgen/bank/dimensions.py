@@ -140,10 +140,17 @@ def _check_entries(template: Template, known: Mapping[str, Dimension]) -> Iterat
 
 
 def _list_entries(expr: Expr) -> tuple[Expr, ...]:
-    """Return the real numbers of a matrix, a vector or a complex number but zeros."""
-    if isinstance(expr, Call) and expr.op in {"complex", "matrix", "vector", "row"}:
+    """Return the real numbers of a matrix, a vector or a complex number but zeros.
+
+    Where drawn numbers choose among several, those of all of them.
+    """
+    if not isinstance(expr, Call):
+        return () if expr == Num(Fraction(0)) else (expr,)
+    if expr.op == "piecewise":
+        return tuple(one for value in expr.args[::2] for one in _list_entries(value))
+    if expr.op in {"complex", "matrix", "vector", "row"}:
         return tuple(one for arg in expr.args for one in _list_entries(arg))
-    return () if expr == Num(Fraction(0)) else (expr,)
+    return (expr,)
 
 
 def _check_step(

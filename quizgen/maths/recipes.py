@@ -103,11 +103,29 @@ def encode_recipe(recipe: Recipe) -> list[Any]:
     return [encode_form(recipe.expr), uses]
 
 
-def decode_recipe(written: list[Any]) -> Recipe:
+class _WrittenUse(msgspec.Struct, array_like=True):
+    """A use as JSON."""
+
+    name: str
+    of: str
+    entry: list[int]
+    by: list[str]
+    at: dict[str, Any]
+
+
+def decode_recipe(written: WrittenForm) -> Recipe:
     """Return a recipe from JSON; raises as ``decode_form``."""
-    form, uses = written
+    try:
+        form, uses = msgspec.convert(written, tuple[Any, list[_WrittenUse]])
+    except msgspec.ValidationError as error:
+        raise ValueError(f"no recipe of a step: {error}") from None
+    if any(place < 0 for use in uses for place in use.entry):
+        raise ValueError("no recipe of a step: a negative place")
     found = [
-        Use(name, of, tuple(entry), tuple(by), tuple((n, decode_form(e)) for n, e in at.items()))
-        for name, of, entry, by, at in uses
-    ]
+        Use(
+            use.name, use.of, tuple(use.entry), tuple(use.by),
+            tuple((name, decode_form(form)) for name, form in use.at.items()),
+        )
+        for use in uses
+    ]  # fmt: skip
     return Recipe(decode_form(form), tuple(found))

@@ -103,6 +103,8 @@ class KeyChain(msgspec.Struct, omit_defaults=True):
     def _add_forms(self, chain: Chain) -> Chain:
         """Return the chain with its forms, and with the recipes of its steps."""
         recipes = {name: decode_recipe(written) for name, written in self.recipes.items()}
+        if {use.of for recipe in recipes.values() for use in recipe.uses} - self.forms.keys():
+            raise ValueError("a recipe uses a form that there is not")
         forms = [
             ChainStep(name, decode_form(written), recipe=recipes.get(name))
             for name, written in self.forms.items()

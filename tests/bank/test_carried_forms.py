@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import pytest
+from msgspec import structs
 from symbolic_bank import write_questions
 
 import quizgen
+from quizgen.core.errors import KeyFileError
+from quizgen.paper.answer_key import FORMAT, make_key_question
+from quizgen.paper.grading import grade_paper
+from quizgen.paper.paper import single_question_paper
 
 SOLVERS = {
     "slope": ("""
@@ -99,3 +104,19 @@ def test_what_does_not_follow_is_wrong(bank, name, own, part, typed):
 def test_a_right_answer_stays_right_after_wrong_work(bank):
     found = quizgen.mark_part(bank.template("slope"), "6x^2 + 3", part="b", earlier={"a": "x"})
     assert found.verdict == "correct"
+
+
+@pytest.mark.parametrize("odd", [
+    5, "x", [], ["x", 5], ["x", [["a"]]], ["x", [["a", "nowhere", [], [], {}]]], [["exec", "x"], []],
+    ["x", [["a", "f", [-1], [], {}]]], ["x", [["a", "f", [], [], {"x": 5}]]], ["x +", []],
+])  # fmt: skip
+def test_a_key_with_an_odd_recipe_is_refused(bank, odd):
+    keyed = make_key_question(single_question_paper(bank.template("slope"), 1, "en").items[0])
+    chain = structs.asdict(keyed.chain)
+    table = {"format": FORMAT, "questions": [{
+        "number": "1", "parts": [structs.asdict(part) for part in keyed.parts],
+        "chain": {**chain, "given": {n: structs.asdict(g) for n, g in chain["given"].items()},
+                  "recipes": {**chain["recipes"], "df": odd}},
+    }]}  # fmt: skip
+    with pytest.raises(KeyFileError):
+        grade_paper(table, {})
