@@ -215,7 +215,7 @@ def two_pictures(page: Page) -> dict[str, Any]:
 def dolly_zoom(page: Page) -> dict[str, Any]:
     """Notes 4.1, F05 and F07: sizes are focal length over depth."""
     times = float(numbers(page.stem)[0])
-    behind = float(numbers(page.parts["b"].text)[0])
+    behind = float((*numbers(page.parts["b"].text), 1)[0])  # *hangs Z behind the actor*
 
     def actor(v: Values) -> dict[str, Any]:
         height = v["f"] * v["Y"] / v["Z"]

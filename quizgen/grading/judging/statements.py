@@ -934,8 +934,9 @@ class Statement:
     def _has_other_end(self, evidence: Evidence, example: Example) -> bool:
         """Return whether clauses also say the other end of a scale of an example.
 
-        Of sameness in any clause (*equal distances look unequal*), of amounts in one of several,
-        where an idea without amounts is not to have one, either (*S gets less, only H stays*).
+        Of sameness and totality in any clause (*equal distances look unequal*, *all of some*), of
+        amounts in one of several, where an idea without amounts is not to have one, either (*S gets
+        less, only H stays*).
         """
         apart = evidence.first < evidence.last
         names = {"sameness", "totality", *(["amount"] if apart else [])}
