@@ -79,8 +79,8 @@ class AngleSpec(ScalarSpec, kw_only=True, frozen=True):
     def _close_turn(self, typed: str, options: GradingOptions) -> str:
         """Return the last of two angles that differ by whole turns, ``-30° = 330°``."""
         *_, before, last = ["", *typed.split("=")]
-        period = parse_exact(self.period)
-        if not before or period == 0:
+        period = parse_exact(self.period) or fmpq(360)
+        if not before:
             return typed
         try:
             found = [read_typed_sides(one.strip(), options.decimal)[0] for one in (before, last)]

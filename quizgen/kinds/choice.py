@@ -11,12 +11,12 @@ import msgspec
 
 from quizgen.core.errors import FormulaError
 from quizgen.grading.echo import safe_echo
+from quizgen.grading.judging.likeness import list_ordinals, read_count
 from quizgen.grading.judging.spelling import fold_word
 from quizgen.grading.judging.wordings import find_wording_in, holds_wording, share_words
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, is_denied, says_otherwise
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, PICTURES, normalise_typed
-from quizgen.grading.reading.number_words import list_number_words
 from quizgen.grading.reading.units import read_unit
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
@@ -33,8 +33,8 @@ from quizgen.kinds.contract import (
     PartContext,
 )
 from quizgen.kinds.work import Work
-from quizgen.locale import cache_words, fallback_language, translate
-from quizgen.locale.word_patterns import WordPattern, list_tables, set_of_words
+from quizgen.locale import fallback_language, translate
+from quizgen.locale.word_patterns import WordPattern, set_of_words
 from quizgen.maths.notation import FormulaReadError
 
 _FEWEST_VALUES = 2
@@ -225,13 +225,9 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
         If there is none.
     """
     typed = _ARE_TRUE.sub("", typed.rstrip(" ;,✓✔."))
-    whole = _find_option_by_text(spec, typed)
-    if whole:
-        return [whole]
-    if several := _read_listed(spec, typed) if spec.kind == "multi" else []:
-        return several
-    if {*map(str.casefold, spec.choices())} == {"yes", "no"} and (truth := read_truth(typed)):
-        return [spec.choices().index(("yes", "no")[truth - 1]) + 1]
+    clear = _read_clear_options(spec, typed)
+    if clear:
+        return clear
     read = (
         _find_option_by_truth(spec, typed)
         or _parse_labelled_options(spec, typed)
@@ -246,6 +242,52 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
             raise
         return meant
     return (spec.kind == "choice" and len(read) > 1 and _find_worded_options(spec, typed)) or read
+
+
+def _read_clear_options(spec: ChoiceSpec, typed: str) -> list[int]:
+    """Return the options of an answer that is one, lists some in full, or says which are not.
+
+    Raises
+    ------
+    FormulaReadError
+        If it contradicts itself, or leaves out what is no option.
+    """
+    whole = _find_option_by_text(spec, typed)
+    if whole:
+        return [whole]
+    if spec.kind == "multi":
+        return _read_beside_denied(spec, typed) or _read_listed(spec, typed)
+    if {*map(str.casefold, spec.choices())} == {"yes", "no"} and (truth := read_truth(typed)):
+        return [spec.choices().index(("yes", "no")[truth - 1]) + 1]
+    return _read_last_word(spec, typed)
+
+
+def _read_beside_denied(spec: ChoiceSpec, typed: str) -> list[int]:
+    """Return the options by letters beside others that are said not to be: ``A, B right, C not``.
+
+    A remark in brackets behind them says nothing against them.
+    """
+    match = _BESIDE_DENIED.fullmatch(typed.strip(_AROUND)) or _LETTERS_REMARKED.fullmatch(typed)
+    if match is None or says_otherwise(match.groupdict().get("remark") or ""):
+        return []
+    try:
+        kept = _read_positions(spec, match["kept"])
+        out = match.groupdict().get("out")
+        denied = _read_positions(spec, out) if out else []
+    except FormulaReadError:
+        return []
+    return [] if {*kept} & {*denied} else kept
+
+
+_LETTERS = r"[^\W\d_](?:(?:[, ]+|,? «and» )[^\W\d_])*"
+_BESIDE_DENIED = WordPattern(
+    rf"(?P<kept>{_LETTERS})(?: «choices.right-behind»| «choices.are» «choices.right»)?"
+    rf"(?:,|;| «choices.but») (?P<out>{_LETTERS}) (?:«choices.are» )?«choices.no-option»",
+    re.IGNORECASE,
+)
+_LETTERS_REMARKED = WordPattern(
+    r"(?P<kept>[A-Z](?:(?:[, ]+|,? «and» )[A-Z])*) \((?P<remark>[^()]{3,})\)"
+)
 
 
 def _read_listed(spec: ChoiceSpec, typed: str) -> list[int]:
@@ -266,7 +308,9 @@ def _read_listed(spec: ChoiceSpec, typed: str) -> list[int]:
     left_out = every
     if but:
         out = but["out"] or but["before"]
-        left_out = _find_worded_options(spec, out) or _read_positions(spec, out)
+        named = find_wording_in(out, [spec.choices(), *spec.said], all_named=True)
+        left_out = _find_worded_options(spec, out) or ([named] if named else [])
+        left_out = left_out or _read_positions(spec, out)
     return [one for one in every if one not in left_out]
 
 
@@ -347,28 +391,17 @@ def _read_places(text: str, count: int) -> list[int]:
     """Return the places of ``the fourth``, ``the last one``, ``the first two``; none of others."""
     idle = set_of_words("articles") | set_of_words("choices.place-nouns")
     words = [word for word in text.casefold().split() if word not in idle]
-    counted = [_list_ordinals().get(word, 0) for word in words]
+    counted = [list_ordinals().get(word, 0) for word in words]
     if len(words) == 1 and words[0] in set_of_words("choices.last"):
         return [count]
     if len(words) == 1 and counted[0]:
         return [place for place in counted if place <= count]
-    many = list_number_words().get(words[1], 0) if len(words) == len(("first", "two")) else 0
+    many = read_count(words[1]) if len(words) == len(("first", "two")) else 0
     if not 1 < many <= count:
         return []
     if words[0] in set_of_words("choices.last"):
         return list(range(count - many + 1, count + 1))
     return list(range(1, many + 1)) if counted[0] == 1 else []
-
-
-@cache_words
-def _list_ordinals() -> dict[str, int]:
-    """Return what a place is called in any language, with its number."""
-    return {
-        word.casefold(): place
-        for table in list_tables("ordinals")
-        for place, row in enumerate(table["counted"], 1)
-        for word in row.split("|")
-    }
 
 
 _LETTER_AHEAD = WordPattern(
@@ -451,13 +484,113 @@ def _read_set_apart(spec: ChoiceSpec, typed: str) -> list[int]:
         if match is None:
             continue
         try:
-            kept = _read_options(spec, match["kept"])
-            denied = _read_options(spec, _NOT.sub("", match["denied"]))
+            kept = _read_part(spec, match["kept"])
+            denied = _read_part(spec, _NOT.sub("", match["denied"]))
         except FormulaReadError:
             continue
-        if not {*kept} & {*denied}:
+        if kept and denied and not {*kept} & {*denied}:
             return kept
     return []
+
+
+def _read_part(spec: ChoiceSpec, text: str) -> list[int]:
+    """Return the options of what is set apart: one clause of a choice, letters or words of several.
+
+    Raises
+    ------
+    FormulaReadError
+        If there is none.
+    """
+    if spec.kind == "multi":
+        return _read_options(spec, text)
+    place = _read_plainly(spec, text)
+    return [place] if place else []
+
+
+def _read_last_word(spec: ChoiceSpec, typed: str) -> list[int]:
+    """Return the option that is left when others are denied, corrected or only thought of.
+
+    ``not A, but C``, ``A no sorry C``, ``red is high but the sky is weak, so A blue``.
+
+    Raises
+    ------
+    FormulaReadError
+        If what is concluded is another option than what stands before it.
+    """
+    text = typed.strip(_AROUND)
+    kept = _read_kept_clause(spec, text)
+    if kept:
+        return [kept]
+    for shape in (_CORRECTED, _SECOND_THOUGHT):
+        match = shape.fullmatch(text)
+        last = _read_plainly(spec, match["rest"]) if match else 0
+        if match and last and (shape is _SECOND_THOUGHT or _read_plainly(spec, match["head"])):
+            return [last]
+    match = _CONCLUDED.fullmatch(text)
+    last = _read_plainly(spec, match["rest"]) if match else 0
+    first = _read_plainly(spec, match["head"]) if match and last else 0
+    if first in {0, last} or (
+        match and _LETTERED_END.match(match["rest"]) and len(text) > _LONG_WORD
+    ):
+        return [last] if last else []
+    raise FormulaReadError("two-readings", 1, safe_echo(typed))
+
+
+def _read_plainly(spec: ChoiceSpec, text: str) -> int:
+    """Return the option that a clause is, by its letter, its words or both; 0 if it is none."""
+    bare = _FINAL.sub("", text.strip(_AROUND + ",;:… "))
+    if len(bare) == 1:
+        mark = bare.translate(BANGLA_LETTERS).upper()
+        return LETTERS.find(mark) + 1 if mark in _list_letters(spec) else 0
+    further = _CONCLUDED.fullmatch(bare)
+    if further:
+        return _read_plainly(spec, further["rest"])
+    try:
+        labelled = _parse_labelled_option(spec, bare)
+    except FormulaReadError:
+        return 0
+    return labelled or _find_option_by_text(spec, bare) or _find_wording(spec, bare)
+
+
+def _read_kept_clause(spec: ChoiceSpec, text: str) -> int:
+    """Return the only option that a clause names, beside others that are denied; 0 without any."""
+    kept, denied, unclear = set[int](), set[int](), list[str]()
+    known = [text for texts in (spec.choices(), *spec.said) for text in texts]
+    for piece in _CLAUSES.split(text):
+        out = _NEGATED.fullmatch(piece.strip(_AROUND))
+        if out:
+            listed = _ALTERNATIVE.split(out["out"] or out["before"])
+            denied |= {_read_plainly(spec, one) or -share_words(one, known) for one in listed}
+            unclear += [one for one in listed if not _read_plainly(spec, one)]
+        else:
+            kept.add(_read_plainly(spec, piece))
+    kept -= {0}
+    if len(kept) != 1 or not denied - {0} or kept & denied:
+        return 0
+    (place,) = kept
+    own = [texts[place - 1] for texts in (spec.choices(), *spec.said)]
+    return 0 if any(share_words(one, own) for one in unclear) else place
+
+
+_CORRECTED = WordPattern(
+    r"(?P<head>.+?)[,;.… ]+(?:«choices.correcting»[,;:.… ]+)+(?P<rest>.+)", re.IGNORECASE
+)
+_SECOND_THOUGHT = WordPattern(
+    r"(?P<head>.*)«choices.thought».+ «choices.but» (?P<rest>.+)", re.IGNORECASE
+)
+_CONCLUDED = WordPattern(
+    r"(?P<head>.+)(?:[,;.:]? )(?:«so»|«choices.final»|->|=>|→|⇒)[,:]? (?P<rest>.+)", re.IGNORECASE
+)
+_FINAL = WordPattern(
+    r"^(?:(?:«so»|«choices.final»|«choices.it»(?: «choices.is»|'s)?) )+", re.IGNORECASE
+)
+_CLAUSES = WordPattern(r"[,;.:]\s+|,? (?:«choices.but») ", re.IGNORECASE)
+_NEGATED = WordPattern(
+    r"(?:\S+ )?(?:«choices.not») (?P<out>.+)"
+    r"|(?P<before>.+?) (?:«choices.are» )?(?:«choices.no-option»)",
+    re.IGNORECASE,
+)
+_LETTERED_END = re.compile(r"[A-Z](?:[) :.].*)?$")
 
 
 def _find_option_by_its_end(spec: ChoiceSpec, typed: str) -> list[int]:
@@ -473,7 +606,10 @@ def _find_option_by_its_end(spec: ChoiceSpec, typed: str) -> list[int]:
         for place, option in enumerate(spec.choices(), 1)
         if re.search(rf"(?<!\w){re.escape(words)}$", option.casefold().strip(_AROUND))
     ]
-    return [] if len(hits) != 1 or says_otherwise(hits[0][1]) else [hits[0][0]]
+    holding = [option for option in spec.choices() if words in option.casefold()]
+    if len(hits) != 1 or len(holding) != 1 or says_otherwise(hits[0][1]):
+        return []
+    return [hits[0][0]]
 
 
 def _read_truth_value(spec: ChoiceSpec, typed: str) -> int:
@@ -594,17 +730,22 @@ def _parse_labelled_option(spec: ChoiceSpec, piece: str) -> int:
     meant = _find_meant_options(spec, match["words"], foreign=bool(_SET_OFF.search(text)))
     if not 1 <= position <= len(spec.choices()):
         return 0
-    if not meant and mark.isupper() and not is_denied(match["words"]):
-        own = [texts[position - 1] for texts in (spec.choices(), *spec.said)]
-        told = _BANGLA_WORDS.fullmatch(match["words"]) or share_words(match["words"], own)
-        return position if told and not _ALTERNATIVE.search(match["words"]) else 0
     if not meant:
-        return 0
-    if position not in meant and text.startswith("a ") and len(meant) == 1:
-        return meant[0]  # the article of "a smaller spot", and no letter
-    if position not in meant:
+        return position if _is_own_reason(spec, position, mark, match["words"]) else 0
+    if text.startswith("a "):  # the article of "a smaller spot", and no letter
+        return meant[0] if len(meant) == 1 else 0
+    whole = _find_wording(spec, text) if mark.isdecimal() and not _SET_OFF.search(text) else 0
+    if not whole and position not in meant:
         raise FormulaReadError("two-readings", 1, safe_echo(piece))
-    return position
+    return whole or position  # the number of "4 times as much" is no place
+
+
+def _is_own_reason(spec: ChoiceSpec, position: int, mark: str, words: str) -> bool:
+    """Return whether words behind a letter, which name no option, go with the one of the letter."""
+    if not mark.isupper() or is_denied(words) or _ALTERNATIVE.search(words):
+        return False
+    own = [texts[position - 1] for texts in (spec.choices(), *spec.said)]
+    return bool(_BANGLA_WORDS.fullmatch(words)) or share_words(words, own)
 
 
 def _find_meant_options(spec: ChoiceSpec, words: str, *, foreign: bool) -> list[int]:

@@ -104,6 +104,11 @@ _TAIL = WordPattern(
     re.DOTALL | re.IGNORECASE,
 )
 """A remark behind an output."""
+_CONCLUDED = WordPattern(
+    r".+(?:[,;.] ?| )(?:«so»|«choices.final»|«choices.rounded»|->|=>|→|⇒):? ?(?P<rest>.+)",
+    re.IGNORECASE | re.DOTALL,
+)
+"""An output behind how it comes about."""
 _AND = WordPattern(r"(?<!\w)«and»(?!\w)")
 _EITHER = WordPattern(r"(?<!\w)«choices.or»(?!\w)", re.IGNORECASE)
 _STRAIGHT = {**dict.fromkeys("“”„‟«»", '"'), **dict.fromkeys("‘’‚‛", "'")}
@@ -140,6 +145,9 @@ def _list_barer_texts(given: str) -> Iterator[str]:
     yield short
     yield _TAIL.sub("", short)
     yield fold_blanks(_AND.sub(" ", short))
+    concluded = _CONCLUDED.fullmatch(bare)
+    if concluded:
+        yield _TAIL.sub("", _drop_surroundings(concluded["rest"]))
 
 
 def unify_quotes(text: str) -> str:

@@ -477,6 +477,12 @@ class PartContext(Protocol):
         ``names`` leads from each to its quantity in the chain.
         """
 
+    def numbered_words(self, count: int) -> list[list[str]]:
+        """Return what the question numbers, ``(1) rounded, (2) raised``, in each language.
+
+        A language that does not number so many is left out.
+        """
+
     def option_texts(self, names: Iterable[str]) -> list[list[str]]:
         """Return the wording of options as they would be typed, in each language once."""
 

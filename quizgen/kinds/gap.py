@@ -66,6 +66,7 @@ class AuthoredGap(AuthoredPooled, kw_only=True, tag="gap", frozen=True):
 class GapSpec(WordSpec, kw_only=True, frozen=True):
     """Gap: ``accept`` = synonyms per gap; ``among`` = the topic's other terms.
 
+    ``names`` are what the question calls the gaps, in each language: ``V: picture 4``.
     ``terms`` are further words of the subject, which are nobody's slip in spelling. The first
     synonym of a gap is the one shown. A single gap may be given as a plain list.
     """
@@ -75,6 +76,7 @@ class GapSpec(WordSpec, kw_only=True, frozen=True):
     accept: list[list[str] | str]
     among: list[str] = msgspec.field(default_factory=list)
     terms: list[str] = msgspec.field(default_factory=list)
+    names: list[list[str]] = msgspec.field(default_factory=list)
 
     def gaps(self) -> list[list[str]]:
         """Return the synonyms of each gap."""
@@ -102,7 +104,9 @@ class GapSpec(WordSpec, kw_only=True, frozen=True):
             If there are not as many words as gaps, or nothing at all.
         """
         gaps = self.gaps()
-        words = _split_digits(typed, gaps) or _read_words(typed, gaps)
+        words = (
+            _split_digits(typed, gaps) or _split_by_name(self, typed) or _read_words(typed, gaps)
+        )
         if len(words) != len(gaps):
             raise FormulaReadError("item-count", 1, str(len(words)), [str(len(gaps))])
         cells = [_judge_gap(self, gap, word) for gap, word in zip(gaps, words, strict=True)]
@@ -222,6 +226,25 @@ def _split_digits(typed: str, gaps: list[list[str]]) -> list[str]:
     return list(digits) if single and digits.isdigit() and len(digits) == len(gaps) > 1 else []
 
 
+def _split_by_name(spec: GapSpec, typed: str) -> list[str]:
+    """Return the numbers of gaps that are called by their names, ``H in 4, V in 2``; else none."""
+    gaps = spec.gaps()
+    if not spec.names or not all(any(word.isdigit() for word in gap) for gap in gaps):
+        return []
+    found: dict[int, str] = {}
+    for piece in _NAMED_PIECES.split(apply_rewrite("digits", typed)):
+        numbers = re.findall(r"(?<![\w.,])\d+(?![\w.,]*\w)", piece)
+        words = re.sub(r"\d+", " ", piece)
+        place = find_wording_in(words, spec.names, all_named=True) if len(numbers) == 1 else 0
+        if not place or place in found or is_denied(piece):
+            return []
+        found[place] = numbers[0]
+    return [found[place] for place in sorted(found)] if len(found) == len(gaps) else []
+
+
+_NAMED_PIECES = WordPattern(r"\s*(?:[,;\n/]|\s«and»\s)+\s*|(?<=\d)\s+(?=[^\W\d_]\w*\s*[=:])")
+
+
 def _split_by_number(typed: str, count: int) -> list[str]:
     """Return the words behind the gaps' own numbers, ``(1) ... (2) ...``; none without numbers."""
     pairs = dict(_PAIR.findall(typed))
@@ -288,7 +311,11 @@ def _judge_gap(spec: GapSpec, gap: list[str], word: str) -> Verdict:
 
 
 def _drop_around(word: str, known: list[str]) -> str:
-    """Return a term of another language in English, without a reason and a remark behind it."""
+    """Return a term of any language in English, without what is denied, a reason or a remark."""
+    apart = _NOT_BUT.fullmatch(word)
+    terms = {*map(fold_word, known)}
+    if apart and {fold_word(apart["out"]), fold_word(apart["kept"])} <= terms:
+        word = apart["kept"]
     return _drop_remark(_drop_reason(_translate_word(word, known), known), known)
 
 
@@ -380,6 +407,7 @@ def _drop_reason(word: str, terms: list[str]) -> str:
     return next((one for one in (plain, nearly) if one != word and fold_word(one) in known), word)
 
 
+_NOT_BUT = WordPattern(r"«choices.not» (?P<out>.+?),? «choices.but» (?P<kept>.+)", re.IGNORECASE)
 _REASON = WordPattern(r"[,;.(]? ?(?<!\w)«choices.because»(?!\w).+", re.IGNORECASE | re.DOTALL)
 _NEARLY = WordPattern(r"^\(?(?:«nearly»|«about»)\)? ", re.IGNORECASE)
 
@@ -464,6 +492,8 @@ def _judge_by_nearest_term(spec: GapSpec, word: str, gap: list[str], others: lis
     It is asked back when a wrong term is as near as a right one, or when it is a word of its own.
     """
     near, _ = nearest_terms(word, [*gap, *others])
+    if not near and len(listed := [piece for piece in _LISTED.split(word) if piece]) > 1:
+        near, _ = nearest_terms(" ".join(listed), [*gap, *others])
     meant = not near and _says_otherwise(spec, word, gap, others)
     if meant:
         return correct(safe_echo(word))
@@ -547,12 +577,15 @@ def ask(part: PartContext) -> AskedPart[GapSpec]:
     named = [(str(place), name) for place, name in enumerate(told, 1)]
     slips = [(f"{mark}={fold_word(term)}", name) for mark, name, terms in wrong for term in terms]
     accept = [part.accepted_words(name) for name in words]
+    numbered = len(gaps) > 1 and all(term[0].isdigit() for term in accept)
+    names = part.numbered_words(len(gaps)) if numbered else []
     spec = make_spec(
         GapSpec,
         part,
         accept=accept,
         among=list(dict.fromkeys(among)),
         terms=confusable_terms(part.terms, chain(*accept)),
+        **({"names": names} if names else {}),
         why=part.reasons([*named, *slips]),
     )
     return AskedPart(

@@ -10,6 +10,7 @@ from typing import ClassVar
 import msgspec
 
 from quizgen.grading.echo import safe_echo
+from quizgen.grading.judging.likeness import list_ordinals
 from quizgen.grading.judging.spelling import fold_word
 from quizgen.grading.judging.wordings import find_wording, find_wording_in, holds_wording
 from quizgen.grading.options import GradingOptions
@@ -34,6 +35,12 @@ from quizgen.maths.notation import FormulaReadError
 
 _SEPARATORS = re.compile(r"[\s,;.|&\[\]{}।॥]+")
 _ARROWS = re.compile(r"\s*(?:->|=>|<->|--|[-:=>()→↔⇒⇔⟶⟷↦])+\s*|(?<=\w)[/_](?=\w)")
+_TAKEN_BACK = WordPattern(
+    r"\b([A-Z]) ?[:=→-]? ?\d+[,;]? «choices.correcting»[,:]? (?=\1)", re.IGNORECASE
+)
+"""A pair behind which the same left side stands again: ``C3 no C5``."""
+_PAIRED = re.compile(r"[:=→⇒]|->|(?<![\w.,/])\d(?![\w.,/°])")
+"""A sign or a number by which a piece is a pair, and not only its right side."""
 _COMMAS = re.compile(r"[;,\n](?![^(]*\))\s*")
 """What stands between sides in order, outside brackets."""
 _LEFT_OVER = WordPattern(
@@ -69,6 +76,8 @@ _NUMBER_LAST = re.compile(r"(?P<words>.*[^\W\d_].*?) ?(?:\((?P<number>\d)\))")
 """Words of a pair, and the number of its right side in brackets behind them."""
 _NUMBERED_LABEL = re.compile(r"[A-Z] ?(?:[:=→]|-+>|[-–])? ?\d(?!\d)")
 """A pair of labels, whatever words stand behind it."""
+_TOKENS = re.compile(r"(?:[\s,:=→>()]|-+>|(?<!\w)-|-(?!\w)|(?<=[^\W\d_])-(?=\d(?!\w)))+")
+_RANGE_OF_LABELS = WordPattern(r"(?<!\w)([A-Z])(?: ?[-–] ?| «to» )([A-Z])(?!\w)")
 _LABEL_FIRST = re.compile(r"(?P<label>[A-Z])\)? ?(?:[:=→]|-+>|[-–] ) ?(?P<words>.+)")
 """The label of a left side with the words of the right one."""
 
@@ -188,7 +197,7 @@ def _read_pairs(spec: MatchSpec, typed: str) -> dict[str, str]:
     FormulaReadError
         If no pairs can be read, or a label is used twice.
     """
-    typed = _LEFT_OVER.sub("", typed.strip())
+    typed = _TAKEN_BACK.sub("", _LEFT_OVER.sub("", typed.strip()))
     source = normalise_typed(re.sub(r"[\r\n]+", " ", typed), keep_x=True, longest=1000)
     text = PICTURES.sub(" ", source.text)
     text = LONE_LETTER.sub(lambda letter: letter[0].translate(BANGLA_LETTERS), text)
@@ -228,6 +237,8 @@ def _list_rights_in_order(spec: MatchSpec, text: str) -> list[tuple[str, str]]:
         marks = list(text)
     if len(marks) == len(spec.pairs) and all(mark.isdecimal() for mark in marks):
         return list(zip(spec.pairs, marks, strict=True))
+    if _PAIRED.search(text):
+        return []
     pieces = text.split() if len(text.split()) == len(spec.pairs) else _COMMAS.split(text)
     worded = [_find_side(spec, words.strip(","), _list_targets(spec)) for words in pieces]
     return list(zip(spec.pairs, worded, strict=True)) if _is_whole(spec, worded) else []
@@ -241,20 +252,32 @@ def _is_whole(spec: MatchSpec, worded: list[str]) -> bool:
 
 def _read_groups(spec: MatchSpec, text: str) -> list[tuple[str, str]]:
     """Return the pairs of ``CCD: A, B; CMOS: C`` or ``HSV 2, YUV 1``; none if one is unclear."""
+    text = _RANGE_OF_LABELS.sub(lambda ends: _list_range(spec, ends), text)
     text = _RUN_OF_LABELS.sub(r"\1 ", text)
-    for between in _GROUPS:
-        groups = [group.strip() for group in between.split(text) if group.strip()]
-        rest = _REST.search(groups[-1]) if len(groups) > 1 else None
-        read = [_read_group(spec, group) for group in (groups[:-1] if rest else groups)]
-        if rest and all(read):
-            named = {left for pairs in read for left, _ in pairs}
-            others = "".join(left for left in spec.pairs if left not in named)
-            read.append(_read_group(spec, f"{others}: {_REST.sub('', groups[-1])}"))
-        if len(groups) > 1 and sum(map(bool, read)) == len(groups) - 1 and not rest:
-            read = _complete_groups(spec, groups, read)
-        if len(groups) > 1 and all(read):
-            return [pair for pairs in read for pair in pairs]
-    return []
+    readings = [_read_split(spec, between.split(text)) for between in _GROUPS]
+    return max(readings, key=len, default=[])
+
+
+def _read_split(spec: MatchSpec, pieces: list[str]) -> list[tuple[str, str]]:
+    """Return the pairs of all pieces of an answer; none if there is only one, or one is unclear."""
+    groups = [piece.strip() for piece in pieces if piece.strip()]
+    if len(groups) < len(("one", "other")):
+        return []
+    rest = _REST.search(groups[-1])
+    read = [_read_group(spec, group) for group in (groups[:-1] if rest else groups)]
+    if rest and all(read):
+        named = {left for pairs in read for left, _ in pairs}
+        others = "".join(left for left in spec.pairs if left not in named)
+        read.append(_read_group(spec, f"{others}: {_REST.sub('', groups[-1])}"))
+    if sum(map(bool, read)) == len(groups) - 1 and not rest:
+        read = _complete_groups(spec, groups, read)
+    return [pair for pairs in read for pair in pairs] if all(read) else []
+
+
+def _list_range(spec: MatchSpec, ends: re.Match[str]) -> str:
+    """Return the left labels from the first to the last, ``A-D``; else what was typed."""
+    labels = [label for label in spec.pairs if ends[1] <= label <= ends[2]]
+    return " ".join(labels) if {ends[1], ends[2]} <= {*labels} else ends[0]
 
 
 def _complete_groups(
@@ -290,19 +313,14 @@ def _read_marked_pair(spec: MatchSpec, group: str) -> tuple[str, str] | None:
         return _find_numbered_pair(spec, numbered["words"], numbered["number"])
     headed = _LABEL_FIRST.fullmatch(group)
     words = headed["words"] if headed and headed["label"] in spec.pairs else ""
-    right = (
-        "" if _is_run_of_labels(spec, words[:1]) else _find_side(spec, words, _list_targets(spec))
-    )
+    labelled = words[:1].isdecimal() or _is_run_of_labels(spec, words[:1])
+    right = "" if labelled else _find_side(spec, words, _list_targets(spec))
     return (headed["label"], right) if headed and right else None
 
 
 def _read_tokens(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
     """Return the pairs of labels with a right side in words, or of a number with a left one."""
-    tokens = [
-        token
-        for token in re.split(r"[\s,:=→>()-]+", group)
-        if token and token not in set_of_words("and")
-    ]
+    tokens = [token for token in _TOKENS.split(group) if token and token not in set_of_words("and")]
     runs = [token for token in tokens if _is_run_of_labels(spec, token)]
     lefts = [label for token in runs for label in token]
     rest = " ".join(token for token in tokens if token not in runs)
@@ -315,9 +333,17 @@ def _read_tokens(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
         return [(left, right) for left in lefts] if right else []
     if len(digits) == 1 and digits[0] in _list_targets(spec):
         words = " ".join(token for token in tokens if token not in digits)
-        left = _find_side(spec, words, list(spec.pairs))
+        left = _find_side(spec, words, list(spec.pairs)) or _find_place(spec, words)
         return [(left, digits[0])] if left else []
     return []
+
+
+def _find_place(spec: MatchSpec, words: str) -> str:
+    """Return the label of the left side that is called by its place, ``first one``; else empty."""
+    idle = set_of_words("choices.place-nouns") | set_of_words("articles")
+    kept = [word for word in words.casefold().split() if word not in idle]
+    place = list_ordinals().get(kept[0], 0) if len(kept) == 1 else 0
+    return list(spec.pairs)[place - 1] if 1 <= place <= len(spec.pairs) else ""
 
 
 def _read_sides(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
@@ -340,7 +366,9 @@ def _find_numbered_pair(spec: MatchSpec, words: str, number: str) -> tuple[str, 
     meant = _find_named_side(spec, rest if named else words)
     if named:
         return (named, number) if meant in {"", number} and not is_denied(rest) else None
-    left = _find_side(spec, words, list(spec.pairs))
+    spoken = words.split()
+    heads = (" ".join(spoken[:cut]) for cut in range(min(len(spoken), MOST_WORDS), 0, -1))
+    left = next(filter(None, (_find_side(spec, head, list(spec.pairs)) for head in heads)), "")
     return (left, number) if left else None
 
 

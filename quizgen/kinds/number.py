@@ -53,6 +53,7 @@ from quizgen.kinds.asking import (
 )
 from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredNumeric, PartContext
 from quizgen.locale import translate
+from quizgen.locale.word_patterns import WordPattern
 from quizgen.maths.constants import Scalar, parse_exact
 from quizgen.maths.notation import FormulaReadError, pretty
 from quizgen.maths.units import format_unit, get_unit
@@ -234,9 +235,9 @@ def _judge_as(
 
 
 MILLIONS = frozenset({"Mpx", "MB", "Mbit"})
-_MILLION = re.compile(r"(?<=\d) ?(?:millions?|millionen|mio\.?|মিলিয়ন)(?!\w)", re.IGNORECASE)
-_TIMES = re.compile(r" ?-? ?(?<![^\W\d_])(?:times|fold|fach|mal|[xX*]|গুণ|বার|টি|টা)$", re.IGNORECASE)
-_PER_HUNDRED = re.compile(r"^শতকরা (.+)$")
+_MILLION = WordPattern(r"(?<=\d) ?(?:«million»|M)(?!\w)", re.IGNORECASE)
+_TIMES = WordPattern(r" ?-? ?(?<![^\W\d_])(?:«times-behind»|[xX*])$", re.IGNORECASE)
+_PER_HUNDRED = WordPattern(r"^«percent-before» (.+)$")
 _REMARK = re.compile(r"(?<![\d.,*/^+-])(-?\d[\d.,/]*) \((?:[=≈] ?)?([^()]*\d[^()]*)\)$")
 _LENS = re.compile(r"[fFƒ] ?/? ?(?=\d)|1 ?: ?(?=\d)")
 _RATIO = re.compile(r"(?<=\d) ?: ?(?=\d)")

@@ -58,6 +58,8 @@ _BETWEEN_STEPS = tuple(
         r"(?<=\))\s*",
     )
 )
+_CORRECTED = WordPattern(r".+?[,;.…] ?«choices.correcting»[,:;.…]? (?P<rest>.+)", re.IGNORECASE)
+"""Steps behind others that are taken back."""
 _STEP_NUMBER = WordPattern(r"^(?:\d{1,2}[.)]\s+|(?:«choices.first» )+)", re.IGNORECASE)
 _COMPARED = re.compile(r"(?<![-=])[<>](?!>)")
 _MARKED = re.compile(r"\(([A-Z])\)")
@@ -166,7 +168,7 @@ class OrderSpec(WordSpec, kw_only=True, frozen=True):
         try:
             chosen = _read_labels(self, typed)
         except FormulaReadError as error:
-            chosen = [] if error.code == "used-twice" else _read_worded_steps(self, typed)
+            chosen = _read_otherwise(self, typed, twice=error.code == "used-twice")
             if not chosen:
                 raise
         read_as = " ".join(safe_echo(label) for label in chosen)
@@ -304,6 +306,20 @@ def _read_labels(spec: OrderSpec, typed: str) -> list[str]:
         if found.count(label) > 1:
             raise FormulaReadError("used-twice", 1, label)
     return found
+
+
+def _read_otherwise(spec: OrderSpec, typed: str, *, twice: bool) -> list[str]:
+    """Return the labels of steps behind others that are taken back, ``A B C, no: B A C``.
+
+    Else those of steps typed by their words, unless a label stands ``twice``.
+    """
+    corrected = _CORRECTED.fullmatch(typed.strip())
+    try:
+        if corrected:
+            return _read_labels(spec, corrected["rest"])
+    except FormulaReadError:
+        return []
+    return [] if twice else _read_worded_steps(spec, typed)
 
 
 def _read_worded_steps(spec: OrderSpec, typed: str) -> list[str]:

@@ -23,7 +23,7 @@ from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.equalities import EqualitySide, read_typed_sides
 from quizgen.grading.reading.numbers import ReadNumber
 from quizgen.grading.reading.quantities import TypedQuantity, put_unit_behind
-from quizgen.grading.reading.units import TypedUnit, listed_unit
+from quizgen.grading.reading.units import TypedUnit, listed_unit, part_joined_units
 from quizgen.grading.rounding import format_key
 from quizgen.grading.spec import COUNTED, ScalarSpec, is_large_count
 from quizgen.grading.verdict import HALF, Verdict, attach_values, partial, wrong
@@ -121,7 +121,7 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
         FormulaReadError
             If it cannot be read.
         """
-        typed = put_unit_behind(typed, self.unit)
+        typed = put_unit_behind(part_joined_units(typed, self.unit), self.unit)
         found: list[Verdict] = []
         for text in self._list_spellings(typed):
             try:
@@ -188,7 +188,7 @@ def _judge_reading(
         return _judge_without_unit(spec, number, wanted, options)
     read_as = f"{number.read_as} {format_unit(quantity.unit.text)}"
     typed = quantity.unit.dimension
-    if wanted.dimension not in {typed, _drop_line_pairs(typed)}:
+    if _drop_line_pairs(wanted.dimension) != _drop_line_pairs(typed):
         return _reject_unit_clash(spec, number, quantity.unit, read_as)
     value = number.value * quantity.unit.factor / wanted.factor
     verdict = judge_in_unit(spec, number, value, options, read_as)
@@ -210,7 +210,7 @@ def judge_in_unit(
 
 
 def _drop_line_pairs(typed: Dimension) -> Dimension:
-    """Return a dimension without line pairs, which are periods where nothing is counted."""
+    """Return a dimension without line pairs: 95 lp/mm are 95 periods in a millimetre, 95/mm."""
     return tuple((base, power) for base, power in typed if base != "lp")
 
 

@@ -37,6 +37,7 @@ from quizgen.kinds.contract import (
 from quizgen.kinds.forms import format_plain, require_form
 from quizgen.kinds.number import is_number
 from quizgen.locale import translate
+from quizgen.locale.word_patterns import set_of_words
 from quizgen.maths.constants import Scalar, parse_exact
 from quizgen.maths.notation import FormulaReadError, pretty
 from quizgen.maths.tolerance import RULES
@@ -66,7 +67,7 @@ class SetSpec(VectorSpec, kw_only=True, frozen=True):
         FormulaReadError
             If an element cannot be read, or ``{0,5}`` can be one or two.
         """
-        if typed.strip() in _EMPTY:
+        if typed.strip() in _EMPTY | set_of_words("empty-set"):
             return _judge(self, [])
         if self.letters:
             return _judge_with_letters(self, typed, options)
@@ -116,7 +117,7 @@ class SetSpec(VectorSpec, kw_only=True, frozen=True):
 _ONE_COMMA = re.compile(r"[^\W\d]?[^,;|\d]*[\[({]? *[-+−–]?\d+,\d+ *[\])}]?[^,;|\d]*")
 _NOUGHT = re.compile(r"(?<!\d)[0০],")
 """How decimals begin: ``0,5`` may be one even where 0 and 5 are asked."""
-_EMPTY = frozenset({"{}", "∅", "{ }", "()", "empty", "leer", "শূন্য"})
+_EMPTY = frozenset({"{}", "∅", "{ }", "()"})
 
 
 def _elements(

@@ -300,8 +300,8 @@ def _format_side_value(side: Expr, env: dict[str, Any]) -> str | None:
 
 
 _FRONT = re.compile(rf"({NAME}) ?(?=[(\[])")
-_CALLED = re.compile(r"([^\W\d_]{2,}) ?(?=\d)")
-"""A name of several letters right before its value, ``ISO 4000``."""
+_CALLED = re.compile(r"([^\W\d_]{2,}(?= ?\d)|[^\W\d_](?= \d)) ?")
+"""A name right before its value, ``ISO 4000``, ``f 28 mm``."""
 _FRACTION = re.compile(r"\d+/\d+")
 _ENGRAVED = re.compile(r"[fF] ?/ ?(?=[\d.])")
 _SEPARATOR = re.compile(rf"[;|\n]|,(?= )|(?<=\)),?|{NAMED_NEXT.pattern}")

@@ -134,12 +134,19 @@ def _iter_misfits(english: object, own: object) -> Iterator[str]:
         yield from _iter_placeholder_errors(english if isinstance(english, str) else "", own)
     elif isinstance(own, list):
         texts = english if isinstance(english, list) else []
+        if texts and all(map(_is_numbered, texts)) and not all(map(_is_numbered, own)):
+            yield f"each is to begin with its number, as {texts[0]!r} does"
         for there, value in zip_longest(texts[: len(own)], own):
             yield from _iter_misfits(there, value)
     elif isinstance(own, dict):
         known = english if isinstance(english, dict) else {}
         for name, value in own.items():
             yield from _iter_misfits(known.get(name), value)
+
+
+def _is_numbered(row: object) -> bool:
+    """Return whether a row has a number before its word: ``1000 thousand``, ``1/2 half``."""
+    return re.match(r"\d+(?:/[1-9]\d*)? \S", str(row)) is not None
 
 
 def _name_type(value: object) -> str:

@@ -39,6 +39,15 @@ def list_words(name: str) -> tuple[str, ...]:
     return tuple(sorted(found, key=len, reverse=True))
 
 
+def list_rows(name: str) -> tuple[tuple[str, str], ...]:
+    """Return the rows of a key in every language, parted at the first blank: 1000, thousand.
+
+    A row without one is passed over; lint reports those of a bank.
+    """
+    parted = (row.partition(" ") for row in list_words(name))
+    return tuple((before, behind) for before, _, behind in parted if behind)
+
+
 @cache_words
 def set_of_words(name: str) -> frozenset[str]:
     """Return the words of a key in every language, to look them up."""
@@ -51,7 +60,7 @@ def join_words(name: str) -> str:
     Of a row with a number before its word, ``1000 thousand``, the word stands in the pattern.
     """
     words = (_NUMBER_BEFORE.sub("", word) for word in list_words(name))
-    listed = "|".join(map(re.escape, sorted(words, key=len, reverse=True)))
+    listed = "|".join(map(re.escape, sorted(filter(None, words), key=len, reverse=True)))
     return f"(?:{listed})" if listed else _NOTHING
 
 

@@ -47,10 +47,19 @@ _WORD = r"(?:[a-zäöüß-]{3,}|[\u0980-\u09ff]{3,})"
 _LAST_WORDS = re.compile(
     rf"((?:{_WORD} ){{0,2}}(?:[a-zäöüß-]{{4,}}|[\u0980-\u09ff]{{3,}})) \(?$", re.IGNORECASE
 )
+_NUMBERED = re.compile(r"\((\d)\) ?([^,;.?()]+)")
+"""A number in a question with the words behind it."""
 _UNFILLED = re.compile(r"\{\{[^{}]*\}\}")
 """What stays of a blank with a slip in it."""
 OPTION_FIGURES = 4
 """Significant figures of a value to choose that has no short exact form."""
+
+
+def _write_plainly(piece: object) -> str:
+    """Return the text of a piece of a question, or the name that its formula is; else a blank."""
+    if isinstance(piece, InlineFormula) and isinstance(piece.expr, Sym):
+        return piece.expr.name
+    return piece.text if isinstance(piece, PlainText) else " "
 
 
 class VariantPart(PartContext):
@@ -264,6 +273,16 @@ class VariantPart(PartContext):
                 yield name, word[1].lower()
             elif drawn and isinstance(after, PlainText) and after.text == ": ":
                 yield name, inlines_to_text(Interpolator(self.drawn, lang).sentence("words", drawn))
+
+    def numbered_words(self, count: int) -> list[list[str]]:
+        """Return what the question numbers, ``(1) rounded, (2) raised``, in each language."""
+        label, found = self.drawn.template.labels[self.index], []
+        for text in self.drawn.template.texts.values():
+            pieces = leaves(text.sections.get(label, ()) if label else text.stem)
+            listed = dict(_NUMBERED.findall("".join(map(_write_plainly, pieces))))
+            if {*listed} == {*map(str, range(1, count + 1))}:
+                found.append([listed[str(place)].strip() for place in range(1, count + 1)])
+        return found
 
     def option_texts(self, names: Iterable[str]) -> list[list[str]]:
         """Return the wordings of options as they would be typed, in each language once."""

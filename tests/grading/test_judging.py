@@ -218,3 +218,81 @@ BY_HAND = {
 def test_what_words_choose_and_what_signs_leave_open(spec, typed, verdict, read_as):
     found = grade_answer(spec, typed)
     assert (found.verdict, found.read_as) == (verdict, read_as)
+
+
+EFFECTS = [
+    "the picture becomes darker and sharper", "it gets coloured fringes from refraction",
+    "the depth of field grows", "the depth of field shrinks", "it shows barrel distortion",
+]  # fmt: skip
+
+
+@together(
+    ("typed", "read_as"),
+    [
+        ("more depth of field", "C"),
+        ("Schärfentiefe nimmt ab, wird kleiner", "D"),
+        ("dof kome", "D"),
+        ("farbige Säume durch Brechung", "B"),
+        ("ব্যারেল distortion", "E"),
+        ("not B, not C, so A", "A"),
+        ("C no sorry D", "D"),
+        ("first thought C but stopping down is the other way, so D", "D"),
+        ("the picture does not become darker and sharper", ""),
+        ("the picture becomes brighter and sharper", ""),
+        ("the depth of field", ""),
+        ("E, so coloured fringes from refraction", ""),
+        ("C, not sure", ""),
+        ("no coloured fringes", ""),
+    ],
+)
+def test_an_option_in_own_words_is_read_and_a_doubtful_one_is_asked_back(typed, read_as):
+    found = grade_answer({"kind": "choice", "options": EFFECTS, "correct": [2]}, typed)
+    assert (found.read_as if found.is_graded else "") == read_as
+
+
+SETTINGS = {
+    "pairs": {"A": "2", "B": "3", "C": "1"},
+    "words": {
+        "A": "the angle of view", "B": "the motion blur", "C": "the depth of field",
+        "1": "rises", "2": "stays as it is", "3": "falls",
+    },
+}  # fmt: skip
+
+
+@together(
+    ("typed", "verdict"),
+    [
+        ("angle of view same, motion blur smaller, depth of field larger", "correct"),
+        ("Bildwinkel gleich, Bewegungsunschärfe sinkt, Schärfentiefe steigt", "correct"),
+        ("angle stays (2), blur falls (3), depth grows (1)", "correct"),
+        ("first one 2, second one 3, third one 1", "correct"),
+        ("A2 B1 no B3 C1", "correct"),
+        ("A=2 blur, B=1 depth, C=3", "partial"),
+        ("angle of view stays, motion blur stays, depth of field or so", "unreadable"),
+    ],
+)
+def test_pairs_in_own_words_are_bound_by_their_numbers(typed, verdict):
+    assert grade_answer({"kind": "match", **SETTINGS}, typed).verdict == verdict
+
+
+@together(
+    ("typed", "verdict"),
+    [
+        ("less of it", "correct"),
+        ("a smaller fill factor", "correct"),
+        ("smaller, since the electronics need room", "correct"),
+        ("not larger but smaller", "correct"),
+        ("smaller or larger", "unreadable"),
+        ("not smaller", "unreadable"),
+        ("larger", "wrong"),
+    ],
+)
+def test_a_gap_takes_a_term_said_otherwise_and_no_denial_of_it(typed, verdict):
+    spec = {"kind": "gap", "accept": [["smaller", "small"]], "among": ["larger", "large"]}
+    assert grade_answer(spec, typed).verdict == verdict
+
+
+def test_gaps_are_named_in_any_order():
+    spec = {"kind": "gap", "accept": [["4"], ["2"], ["3"]], "names": [["V", "S", "H"]]}
+    assert grade_answer(spec, "H in 3, V in 4, S in 2").read_as == "4; 2; 3"
+    assert not grade_answer(spec, "H in 3, V in 4, V in 2").is_graded

@@ -21,7 +21,7 @@ AGREED = {
     "numbas": (72, 72),
     "prairielearn": (55, 57),
     "stack_formulas": (135, 154),
-    "stack_numbers": (67, 74),
+    "stack_numbers": (73, 74),
     "stack_units": (87, 96),
 }
 """Rows on which both decide alike, of all rows."""

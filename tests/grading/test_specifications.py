@@ -62,7 +62,7 @@ FULL = [
     {"kind": "order", "steps": ["a", "b"], "before": [["a", "b"]], "distractors": ["c"],
      "together": [["a", "b"]], "words": {"a": "first"}, "said": [{"a": "zuerst"}]},
     {"kind": "gap", "accept": [["colour", "রং"], "grey"], "among": ["hue"],
-     "terms": ["great"]},
+     "terms": ["great"], "names": [["V", "S"]]},
     {"kind": "witness", "predicate": "x^2 < y", "symbols": {"x": "real"}, "let": {"y": "x"},
      "where": ["x > 0"], "example": {"x": "1/2"}},
     {"kind": "witness", "demands": {"short": {"holds": "f < 50", "worth": 2}}, "symbols": ["f"],

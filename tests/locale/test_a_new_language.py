@@ -18,7 +18,7 @@ from pseudo import LANG, accented, write_bank, write_language
 
 from quizgen import figures, locale, mark_part, typeset
 from quizgen.bank.bank import builtin_bank
-from quizgen.locale import list_languages, load_words
+from quizgen.locale import check_translations, custom, list_languages, load_words
 from quizgen.maths.notation import parse_formula
 
 pytestmark = pytest.mark.slow
@@ -173,6 +173,21 @@ def test_answers_are_read_in_words_of_the_language(
     assert not mark(typed).is_graded
 
 
+def test_a_row_of_a_bank_without_its_number_is_told_of_and_left_out(tmp_path):
+    (tmp_path / "eo").mkdir()
+    (tmp_path / "eo" / "language.toml").write_text('name = "Esperanto"\n', encoding="utf-8")
+    (tmp_path / "eo" / "answers.toml").write_text(
+        f'{ESPERANTO}[functions]\nradiko = "sqrt"\n'.replace("14 dek kvar", "cent"),
+        encoding="utf-8",
+    )
+    said = [problem.message for problem in check_translations(tmp_path)]
+    (row,) = [one for one in said if one.startswith(("numbers", "functions", "said"))]
+    assert "begin with its number" in row
+    english = load_words("en", "answers")
+    own = custom.merge_translation(english, {"numbers": {"larger": ["cent"]}})
+    assert own["numbers"]["larger"] == english["numbers"]["larger"]
+
+
 def test_practice_speaks_the_language(place):
     run = quizgen(place, "practice", "--bank", "bank", "--trust", "--lang", LANG, "--count", "1", "--seed", "3",
                   typed="?\n" * 60)  # fmt: skip
@@ -225,7 +240,7 @@ def test_every_language_has_every_file_and_every_word(lang):
 
     for path in (ROOT / "quizgen" / "locale" / "en").glob("*.toml"):
         # Speech: what is not called as written; words of this language that answers in English hold.
-        open_tables = ("letters.", "greek.", "names.", "said.", "same.", "functions.")
+        open_tables = tuple(f"{table}." for table in locale.OPEN)
         english, other = (
             {
                 key

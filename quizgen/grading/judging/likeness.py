@@ -15,6 +15,7 @@ from quizgen.grading.judging.spelling import (
     find_translation,
     fold_word,
     is_another_word,
+    sounds_alike,
     typo_distance,
 )
 from quizgen.grading.judging.statements import Scale, find_scales, is_form_of, list_clause_words
@@ -71,7 +72,7 @@ def find_likest(
             worded = [
                 word for word in told if place in _find_places(word, wordings, _says_the_same)
             ]
-            clear = (worded or all_named or not strangers) and _is_enough(
+            clear = (worded or all_named) and _is_enough(
                 told, strangers, words, all_named=all_named
             )
             if clear and all(_agree(said, strangers, texts[place]) for texts in languages):
@@ -146,8 +147,8 @@ def _is_same_word(word: str, other: str) -> bool:
     """Return whether a word is a form of another one, as a number is only of itself."""
     if word == other:
         return True
-    if _read_number(word) >= 0 or _read_number(other) >= 0:
-        return _read_number(word) == _read_number(other)
+    if read_count(word) >= 0 or read_count(other) >= 0:
+        return read_count(word) == read_count(other)
     if word.isascii() and (min(len(word), len(other)) < LEAST or not (word + other).isalpha()):
         return False
     return is_form_of(word, other, slips=False) or _is_slip(word, other)
@@ -160,16 +161,34 @@ def _is_slip(word: str, other: str) -> bool:
     return bool(near) and not is_another_word(word, other, ())
 
 
+@cache_words
+def list_ordinals() -> dict[str, int]:
+    """Return what a place is called in any language, with its number: ``first``."""
+    return {
+        word.casefold(): place
+        for table in list_tables("ordinals")
+        for place, row in enumerate(table["counted"], 1)
+        for word in row.split("|")
+    }
+
+
+@cache_words
+def _list_multiples() -> dict[str, int]:
+    """Return words that are a factor by themselves, with it: ``twice``."""
+    rows = (row.split(" ", 1) for row in list_words("factors.multiples"))
+    return {word: int(number) for number, word in rows if " " not in word}
+
+
 def _is_word(word: str) -> bool:
     """Return whether it is letters, and no number or a sign with one."""
     return word[:1].isalpha() and not any(map(str.isdigit, word))
 
 
-def _read_number(word: str) -> int:
+def read_count(word: str) -> int:
     """Return the whole number that a word is or says; -1 if it is none."""
     if word.isdecimal():
         return int(word)
-    known = list_number_words()
+    known = list_number_words() | _list_multiples()
     said = (sense[0] for sense in list_senses(word) if len(sense) == 1)
     return known.get(word, next((known[one] for one in said if one in known), -1))
 
@@ -178,6 +197,8 @@ def _read_number(word: str) -> int:
 def _says_the_same(word: str, other: str) -> bool:
     """Return whether a word says the same as another one, or is its beginning."""
     if _is_same_word(word, other):
+        return True
+    if not word.isascii() and other.isascii() and sounds_alike(word, other):
         return True
     if len(word) >= BEGINNING and other.startswith(word) and _is_word(word):
         return True
@@ -222,7 +243,9 @@ def _is_enough(
     """
     if len(strangers) > len(telling) + 1:
         return False
-    worded = [word for word in telling if _is_word(word) and _read_number(word) < 0]
+    if not strangers and all(read_count(word) >= 0 for word in telling):
+        return True
+    worded = [word for word in telling if _is_word(word) and read_count(word) < 0]
     longest = max(
         (len(one) for word in worded for one in (word, *find_translation(word))), default=0
     )
@@ -231,7 +254,7 @@ def _is_enough(
     fillers = list_clause_words("fillers")
     rest = [[word for word in words if word not in fillers] for words in meant]
     return any(
-        2 * len(worded) >= len(words) or all(_read_number(word) >= 0 for word in words)
+        2 * len(worded) >= len(words) or all(read_count(word) >= 0 for word in words)
         for words in rest
     )
 
@@ -250,13 +273,34 @@ def _agree(said: Sequence[str], strangers: Sequence[str], meant: Clauses) -> boo
     }
     if not touched:
         return True
-    if _denies(spoken) != _denies(touched):
+    if _denies(spoken) != _denies(touched) or are_opposed(spoken, touched):
         return False
     if any(word in list_clause_words("doubts") for word in strangers):
         return False
-    if any(not _is_word(word) or _read_number(word) > 1 for word in strangers):
+    if any(not _is_word(word) or read_count(word) > 1 for word in strangers):
         return False
     return _point_one_way(spoken, strangers, {word for clause in meant for word in clause})
+
+
+def are_opposed(said: Collection[str], wanted: Collection[str]) -> bool:
+    """Return whether an answer has one of two opposite words, and a wording only the other one.
+
+    So are the two ends of a scale.
+    """
+    ends, own = ({end for word in words for end in _find_ends(word)} for words in (wanted, said))
+    if any((name, -sign) in ends and (name, sign) not in ends for name, sign in own):
+        return True
+    for row in _load_opposites():
+        told, asked = row & {*said}, row & {*wanted}
+        if told and asked and not told & asked:
+            return True
+    return False
+
+
+@cache_words
+def _load_opposites() -> tuple[frozenset[str], ...]:
+    """Return the rows of words of which only one can hold, folded, of all languages."""
+    return tuple(frozenset(map(fold_word, row.split())) for row in list_words("wordings.opposites"))
 
 
 def _denies(words: Collection[str]) -> bool:
@@ -278,8 +322,6 @@ def _point_one_way(
     """
     ends = {end for word in wanted for end in _find_ends(word)}
     own = {end for word in spoken for end in _find_ends(word)}
-    if any((name, -sign) in ends and (name, sign) not in ends for name, sign in own):
-        return False
     free = {*ends, *({MORE} if {one for one in own & ends if one[0] != MORE[0]} else ())}
     strange = {part for one in strangers for sense in list_senses(one) for part in sense}
     return all(

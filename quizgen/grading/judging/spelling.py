@@ -119,6 +119,42 @@ LEAST_STEM = 4
 """Letters that are left of a word whose ending does not count."""
 
 
+def sounds_alike(word: str, english: str) -> bool:
+    """Return whether a word in another script is an English one by its sound: ``ব্যারেল``, barrel."""
+    sounds = _list_sounds()
+    letters = re.findall("|".join(sounds), word) if sounds else []
+    heard = _DOUBLE.sub(r"\1", "".join(map(sounds.__getitem__, letters)))
+    return len(heard) >= LEAST_SOUNDS and heard == _spell_sounds(english)
+
+
+@cache_words
+def _list_sounds() -> dict[str, str]:
+    """Return the letters of other scripts, longest first, with the consonants they stand for."""
+    return dict(row.split("=") for row in list_words("spelling.sounds"))
+
+
+@lru_cache(maxsize=4096)
+def _spell_sounds(english: str) -> str:
+    """Return the consonants of an English word as they sound, none twice."""
+    text = english.casefold()
+    for shape, sound in _SPELT:
+        text = shape.sub(sound, text)
+    return _DOUBLE.sub(r"\1", text)
+
+
+_SPELT = tuple(
+    (re.compile(shape), sound)
+    for shape, sound in (
+        (r"ph", "f"), (r"gn(?=[aeiou])", "n"), (r"[tsc]ion", "sn"), (r"[sc]h", "s"), (r"ck", "k"),
+        (r"c(?=[eiy])", "s"), (r"[cq]", "k"), (r"x", "ks"), (r"z", "s"), (r"w", "v"),
+        (r"ng", "n"), (r"[aeiouyh]", ""),
+    )
+)  # fmt: skip
+_DOUBLE = re.compile(r"(.)\1+")
+LEAST_SOUNDS = 3
+"""Consonants by which a word is known."""
+
+
 MOST = 2
 """Most typing slips allowed in any word."""
 

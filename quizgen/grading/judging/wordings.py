@@ -12,17 +12,29 @@ from collections.abc import Collection, Sequence
 from functools import lru_cache, partial
 from itertools import pairwise
 
-from quizgen.grading.judging.likeness import find_likest, list_senses, tells_all
+from quizgen.grading.judging.likeness import (
+    are_opposed,
+    find_likest,
+    list_ordinals,
+    list_senses,
+    tells_all,
+)
 from quizgen.grading.judging.spelling import (
     allowed_typos,
     find_translation,
     fold_word,
     typo_distance,
 )
+from quizgen.grading.judging.statements import list_clause_words
 from quizgen.grading.reading.answer_reader import says_otherwise
 from quizgen.grading.reading.number_words import list_number_words
 from quizgen.locale import cache_words
-from quizgen.locale.word_patterns import WordPattern, list_tables, list_words, set_of_words
+from quizgen.locale.word_patterns import (
+    WordPattern,
+    list_rows,
+    list_tables,
+    set_of_words,
+)
 
 _TOKEN = re.compile(
     r"[-+−]?(?:\d+/)?√?\d+(?:[.,]\d+)?(?:/√?\d+)?|[^\W\d_]+/\d+|(?:[^\W\d_]|[\u0980-\u09ff])+\d*"
@@ -76,7 +88,7 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
         hits = [
             place
             for place in _find_nearest(meant & known, listed)
-            if len(listed[place - 1]) <= 2 * len(meant & known)
+            if all_named or 3 * len(listed[place - 1]) <= 4 * len(meant & known)
         ]
     if len(hits) != 1:
         return 0
@@ -92,7 +104,11 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
         return 0
     if not all_named and not _says_enough(_split_words(wordings[hits[0] - 1]), meant, listed):
         return 0
-    denied = says_otherwise(" ".join(more)) or _denies(wanted) != _denies(meant)
+    denied = (
+        says_otherwise(" ".join(more))
+        or _denies(wanted) != _denies(meant)
+        or are_opposed(meant, wanted)
+    )
     return 0 if denied else hits[0]
 
 
@@ -104,6 +120,12 @@ def find_wording_in(
     German words that are no language of the bank are tried as what they say in English. Places
     that differ between languages mean none.
     """
+    return _find_meant(typed, tuple(map(tuple, languages)), all_named)
+
+
+@partial(cache_words, most=4096)
+def _find_meant(typed: str, languages: tuple[tuple[str, ...], ...], all_named: bool) -> int:
+    """Return what ``find_wording_in`` does; a pair is cut at many places to find its sides."""
     verbatim = {find_verbatim(typed, wordings) for wordings in languages} - {0}
     if len(verbatim) == 1:
         return verbatim.pop()
@@ -138,6 +160,8 @@ def find_verbatim(typed: str, wordings: Sequence[str]) -> int:
     """
     piece = _squeeze(typed)
     least = LEAST_TOLD - piece.isupper()
+    if _denies(frozenset(_split_words(typed))):
+        return 0
     if len(piece) < least or not (_SIGN.search(piece) or piece.isupper()):
         return 0
     shape = re.compile(rf"(?<![\w.]){re.escape(piece)}(?![\w.]|[*/^]|\()")
@@ -221,6 +245,7 @@ def _find_by_name(typed: str, wordings: Sequence[str]) -> int:
     said = frozenset(_split_words(typed))
     names = _list_names_of(typed) - {said}
     known = frozenset().union(*map(_split_words, wordings))
+    joining = set_of_words("wordings.joining")
     for found in (
         [place for place, one in enumerate(wordings, 1) if said and said in _list_names_of(one)],
         [place for place, one in enumerate(wordings, 1) if names and names <= _list_names_of(one)],
@@ -229,7 +254,7 @@ def _find_by_name(typed: str, wordings: Sequence[str]) -> int:
             place
             for place, one in enumerate(wordings, 1)
             if any(
-                said & known == name and _is_little_more(said - name)
+                name and (said & known) - joining == name and _is_little_more(said - known)
                 for name in _list_names_of(one)
             )
         ],
@@ -246,6 +271,7 @@ def _is_little_more(words: frozenset[str]) -> bool:
         or _denies(words)
         or says_otherwise(" ".join(words))
         or any(word.isdecimal() or word in list_number_words() for word in words)
+        or words & list_ordinals().keys()
     )
 
 
@@ -318,7 +344,7 @@ def _own_words(words: frozenset[str], listed: list[frozenset[str]]) -> frozenset
 
 def _denies(words: frozenset[str]) -> bool:
     """Return whether a word of denial is among some."""
-    return bool(words & set_of_words("wordings.denying"))
+    return bool(words & (set_of_words("wordings.denying") | list_clause_words("denials")))
 
 
 def _find_known_words(word: str, known: frozenset[str]) -> frozenset[str]:
@@ -390,8 +416,7 @@ _ENDING = WordPattern(r"(?<=..)«wordings.endings»$")
 @cache_words
 def _load_shares() -> dict[str, str]:
     """Return the shares in words of all languages to fractions."""
-    rows = (row.split(" ", 1) for row in list_words("wordings.shares"))
-    return {word: share for share, word in rows}
+    return {word: share for share, word in list_rows("wordings.shares")}
 
 
 @cache_words

@@ -6,15 +6,14 @@ import re
 from collections.abc import Iterator
 
 from quizgen.grading.reading.normalise import LONGEST
+from quizgen.locale.word_patterns import WordPattern
 
 _INVERSE = re.compile(
     r"\\?(?:arc(?:tan|sin|cos)|a(?:tan2?|sin|cos))(?![^\W\d_])"
     r"|(?:tan|sin|cos) ?(?:\^ ?\(?-1\)?|\^\{-1\}|⁻¹)"
 )
 _MINUTES = re.compile(r"(\d+) ?° ?(\d{1,2}) ?['′’](?: ?(\d{1,2}(?:\.\d+)?) ?(?:''|[″\"]))?")
-_ARC_MINUTES = re.compile(
-    r"(\d+(?:[.,]\d+)?) ?(?:arc ?min(?:utes?)?|Bogenminuten?|আর্ক মিনিট)(?!\w)", re.IGNORECASE
-)
+_ARC_MINUTES = WordPattern(r"(\d+(?:[.,]\d+)?) ?«arc-minutes»(?!\w)", re.IGNORECASE)
 _CIRCLE = re.compile(r"(?<=\d) ?\^ ?\{? ?(?:o|\\circ) ?\}?")
 
 

@@ -14,9 +14,8 @@ from fractions import Fraction
 from typing import Literal, NamedTuple, TypeAlias
 
 from quizgen.core.errors import FormulaError
-from quizgen.grading.reading.bound_values import bind_values
 from quizgen.grading.reading.factor_words import is_shrinking, read_factor
-from quizgen.grading.reading.joined_values import rejoin_values, repeat_value
+from quizgen.grading.reading.joined_values import bind_values, rejoin_values, repeat_value
 from quizgen.grading.reading.labels import NAME, AskedNames, find_name
 from quizgen.grading.reading.literals import LITERAL
 from quizgen.grading.reading.normalise import LONGEST_PROSE, REWRITES
@@ -30,7 +29,10 @@ from quizgen.grading.reading.number_words import (
 )
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.reading.spoken_values import (
+    drop_display,
+    find_converted,
     find_given_value,
+    list_given_lists,
     list_meant_values,
     write_spoken_formula,
     write_spoken_value,
@@ -237,6 +239,9 @@ def _list_plainer_values(text: str, names: AskedNames, *, ranges: bool) -> Itera
     yield from separate_labelled_values(text, names)
     yield from rejoin_values(text, len(names), ranges=ranges)
     yield from bind_values(text, names, scan_numbers)
+    for given in list_given_lists(text):
+        yield given
+        yield from separate_labelled_values(given, names)
     last = _LAST_LIST.fullmatch(text)
     corrected = _load_around_words().correcting.fullmatch(text)
     yield from ([last[1]] if last else [corrected["rest"]] if corrected else [])
@@ -267,7 +272,9 @@ def _list_barer_formulas(text: str) -> Iterator[str]:
 
 _ROOT_OF = WordPattern(r"«root-of» ([^\s+*/=-]+)", re.IGNORECASE)
 _ROOT_BEHIND = WordPattern(r"([^\s+*/=-]+?)(?:-| )?«root-behind»")
-_WORDS_BEHIND = re.compile(r" \((?:[^\W\d_]{3,}[ -]?)+\)$")
+_WORDS_BEHIND = re.compile(
+    r" \((?:[^\W\d_]{3,}[ -]?)+\)$|, (?:(?:[^\W\d_]|[\u0981-\u09d7]){2,}[ '’-]?)+$"
+)
 _FRACTION_FACTOR = re.compile(r"(?<![\w.,^/*)])(\d+ ?/ ?\d+) (?=[(√]|[^\W\d_])")
 
 
@@ -313,6 +320,9 @@ def _find_conclusion(text: str) -> Iterator[str]:
         concluded = shape.fullmatch(text)
         if concluded and not says_otherwise(concluded["rest"]):
             yield add_mixed_units(concluded["rest"].rpartition("=")[2].strip() or text)
+    converted = find_converted(text)
+    if converted:
+        yield converted
     said, given = find_given_value(text)
     if given and not is_denied(said):
         yield given
@@ -476,6 +486,7 @@ _SHARE_OF_UNIT = WordPattern(rf"([^\d,;.]+?) (?:«share-of» )+({_LETTERS}+)", r
 
 def _write_items_as_numbers(text: str) -> str:
     """Return several values with those in words as digits, and without remarks in brackets."""
+    text = drop_display(text)
     text = _REMARK.sub(lambda m: m[0] if says_otherwise(m[0]) else "", text)
     pieces = _ITEMS.split(_MINUS.sub("-", text))
     return "".join(map(_write_item_as_number, pieces))
@@ -502,7 +513,7 @@ _REMARKED = WordPattern(
 _REMARK = re.compile(r"(?<=\d) ?\([^\W\d][^()\d;,]*\)")
 _MINUS = WordPattern(r"(?<![^\W\d_])«minus» (?=[.,]?\d)", re.IGNORECASE)
 _LAST_LIST = WordPattern(
-    r"(?:.*\d.*|[^(,;]+)(?:=|:|, «so») ?"
+    r"(?:.*\d.*|[^(,;]+)(?:=>?|:|→|⇒|->|, «so») ?"
     r"(\([^()=]+\)|\[[^\[\]=]+\])",
     re.DOTALL,
 )

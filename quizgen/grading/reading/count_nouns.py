@@ -7,6 +7,7 @@ import unicodedata
 from collections.abc import Iterable
 from functools import lru_cache
 
+from quizgen.grading.judging.spelling import find_translation, fold_word
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.locale import fallback_language, is_written_in
 from quizgen.maths.units import active_units, format_unit
@@ -36,7 +37,15 @@ def drop_count_noun(source: SourceText, words: Iterable[str]) -> SourceText:
     if match is not None:
         return source.slice(0, match.start())
     match = before.match(source.text)
-    return source.slice(match.end()) if match is not None else source
+    if match is not None:
+        return source.slice(match.end())
+    noun = _NOUN.search(source.text)
+    said = {fold_word(word) for word in find_translation(noun[1])} if noun else set()
+    meant = noun and said & {fold_word(word) for word in named}
+    return source.slice(0, noun.start()) if noun and meant else source
+
+
+_NOUN = re.compile(r"(?<=\d) ([^\W\d_]{3,})$")
 
 
 def count_noun_unit(words: Iterable[str]) -> str:

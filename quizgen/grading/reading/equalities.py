@@ -247,7 +247,7 @@ def _is_rounded_to(source: SourceText, before: EqualitySide, side: EqualitySide)
         return False
     (a, _), (b, _) = _convert_to_base_units(before), _convert_to_base_units(side)
     unit = side.quantity.unit.factor if side.quantity.unit else fmpq(1)
-    return bool(2 * abs(a - b) <= unit)
+    return bool(b != 0 and 2 * abs(a - b) <= unit)
 
 
 def _is_in_base_units(first: EqualitySide, second: EqualitySide) -> bool:

@@ -6,7 +6,7 @@ import re
 
 from quizgen.grading.reading.number_words import list_number_words, replace_number_word
 from quizgen.locale import cache_words
-from quizgen.locale.word_patterns import WordPattern, list_words, set_of_words
+from quizgen.locale.word_patterns import WordPattern, list_rows, list_words, set_of_words
 
 _BEFORE = WordPattern(
     r"^(?:«factors.subjects» (?:«factors.verbs» )?)?"
@@ -34,11 +34,9 @@ _SHRINKING = WordPattern("«factors.shrinking»", re.IGNORECASE)
 @cache_words
 def _list_shares() -> dict[str, str]:
     """Return shares in words to fractions: ``a quarter``, ``one fortieth``, ``ein Dreißigstel``."""
-    rows = (row.split(" ", 1) for row in list_words("factors.shares"))
-    endings = (row.split(" ", 1) for row in list_words("numbers.share-endings"))
     ordinals = {
         f"{word.removesuffix(old)}{new}": f"1/{value}"
-        for old, new in endings
+        for old, new in list_rows("numbers.share-endings")
         for word, value in list_number_words().items()
         if value >= len("1234") and word.endswith(old)
     }
@@ -46,9 +44,9 @@ def _list_shares() -> dict[str, str]:
         f"{tens}-{word}": f"1/{value + int(added)}"
         for tens, value in list_number_words().items()
         if value in range(20, 100, 10)
-        for added, word in (row.split(" ", 1) for row in list_words("numbers.shares-behind-tens"))
+        for added, word in list_rows("numbers.shares-behind-tens")
     }
-    listed = {word.casefold(): value for value, word in rows}
+    listed = {word.casefold(): share for share, word in list_rows("factors.shares")}
     return {**{word.casefold(): value for word, value in (ordinals | compound).items()}, **listed}
 
 
@@ -89,7 +87,7 @@ def is_shrinking(words: str) -> bool:
 @cache_words
 def _split_multiples() -> list[tuple[str, str]]:
     """Return words that are a factor by themselves, longest first: ``twice``, ``vierfach``."""
-    rows = [row.split(" ", 1) for row in list_words("factors.multiples")]
+    rows = list_rows("factors.multiples")
     return sorted(((word, number) for number, word in rows), key=lambda row: -len(row[0]))
 
 

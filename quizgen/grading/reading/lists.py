@@ -15,6 +15,8 @@ from quizgen.maths.notation.names import FUNCTIONS
 BRACKETS = {"(": ")", "[": "]", "{": "}", "<": ">"}
 _HARD = re.compile(r"[;|\n]")
 _COMMA = re.compile(r",")
+_COMMA_BLANK = re.compile(r", +")
+_COMMA_DECIMAL = re.compile(rf"(?:{NAME} ?[=:≈] ?)?[-+−]?\d+(?:,\d+)?(?: ?[^\W\d][^\d,]*|%)?")
 _SLASH = re.compile(r" / ")
 _BLANK_BEFORE = re.compile(r" +(?=[,;|])")
 _JOINING = WordPattern(r"[,;]? (?:«and»|&) ")
@@ -207,6 +209,10 @@ def _by_commas(
         ``comma-twice`` if both readings are possible.
     """
     spaced = list(_split_at_separator(source, re.compile(r",? +")))
+    pieces = list(_split_at_separator(source, _COMMA_BLANK))
+    plain = all(_COMMA_DECIMAL.fullmatch(piece.text) for piece in pieces)
+    if plain and count == len(pieces) != commas + 1:
+        return pieces  # 0,15, 0,14, 0,02
     if _mixed_commas(source.text):
         raise FormulaReadError("comma-twice", source.column(source.text.index(",")), source.text)
     if count is not None and commas + 1 == count:

@@ -13,7 +13,7 @@ from functools import lru_cache
 
 from quizgen.grading.reading.source_map import Rewrite, SourceText
 from quizgen.locale import cache_words
-from quizgen.locale.word_patterns import WordPattern, list_words
+from quizgen.locale.word_patterns import WordPattern, list_rows
 from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.notation.pretty import BELOW, FROM_BELOW, LOWERED
 
@@ -52,8 +52,7 @@ _X = re.compile(r"(?<=[\d)])(?<!^0)(?<![^\d.,]0) *[xXхХ] *(?=\d)")
 @cache_words
 def _list_exponents() -> dict[str, int]:
     """Return the words that are a power of ten behind a number, with its exponent: ``lakh``."""
-    rows = (row.split(" ", 1) for row in list_words("numbers.multiples"))
-    return {word.lower(): len(size) - 1 for size, word in rows}
+    return {word.lower(): len(size) - 1 for size, word in list_rows("numbers.multiples")}
 
 
 def _make_character_replacer(pairs: dict[str, str]) -> Callable[[re.Match[str]], str]:

@@ -10,6 +10,7 @@ from quizgen.grading.reading.units import TypedUnit, read_unit
 from quizgen.locale import cache_words
 from quizgen.locale.word_patterns import (
     WordPattern,
+    list_rows,
     list_tables,
     list_words,
     set_of_words,
@@ -45,9 +46,8 @@ _NUMBER = r"(\d+(?:\.\d+)?)"
 @cache_words
 def list_multiples() -> dict[str, int]:
     """Return the words that multiply the number before them, in small letters: lakh, thousand."""
-    rows = (row.split(" ", 1) for row in list_words("numbers.multiples"))
     hundreds = dict.fromkeys(list_words("numbers.hundred"), HUNDRED)
-    return hundreds | {word.lower(): int(size) for size, word in rows}
+    return hundreds | {word.lower(): int(size) for size, word in list_rows("numbers.multiples")}
 
 
 _SUMMAND = WordPattern(
@@ -137,8 +137,9 @@ def _is_multiple_next(text: str, position: int) -> bool:
 @cache_words
 def _list_joints() -> tuple[tuple[str, int], ...]:
     """Return the words that multiply within one word, such as ``tausend``, the largest first."""
-    rows = (row.split(" ", 1) for row in list_words("numbers.inside"))
-    return tuple(sorted(((word, int(size)) for size, word in rows), key=lambda one: -one[1]))
+    rows = list_rows("numbers.inside")
+    sizes = ((word, int(size)) for size, word in rows if size.isdecimal())
+    return tuple(sorted(sizes, key=lambda one: -one[1]))
 
 
 def _find_spoken_word(word: str) -> int | None:

@@ -108,6 +108,7 @@ _MIXED = re.compile(
     r"|(?P<sign2>[-+]?) ?\((?P<whole2>\d+)\+(?P<top2>\d+)/(?P<bottom2>\d+)\)",
     re.ASCII,
 )
+_BRACKETED = re.compile(r"\(([-+]?\d*\.?\d+)\)", re.ASCII)
 _E_SPACED = re.compile(r"(?<=[\d.]) ?[eE] ?(?=[-+]?\d)")
 
 
@@ -206,6 +207,8 @@ def _read_point_notation(source: SourceText) -> ReadNumber:
     percent = text.endswith("%")
     if percent:
         text = text[:-1].rstrip()
+    bracketed = _BRACKETED.fullmatch(text)
+    text = bracketed[1] if bracketed else text
     number = (
         _read_scientific(text)
         or _read_bare_power_of_ten(text)

@@ -7,16 +7,15 @@ as it was typed, so that it is asked back.
 from __future__ import annotations
 
 import re
-import unicodedata
 from collections.abc import Iterator
-from functools import cache
 
 from quizgen.core.errors import FormulaError
 from quizgen.grading.reading.equalities import read_sides
 from quizgen.grading.reading.factor_words import read_factor
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.reading.units import read_unit
-from quizgen.locale import list_languages, load_words
+from quizgen.locale import cache_words
+from quizgen.locale.word_patterns import WordPattern, list_words
 from quizgen.maths.notation import FormulaReadError
 
 _START, _END = r"(?<![\w\u0980-\u09ff])", r"(?![\w\u0980-\u09ff])"
@@ -26,44 +25,67 @@ _MOST_ERROR = 0.01
 """Relative error that a value may be said to have, and still be one value."""
 
 
-@cache
-def _list_phrases(section: str, name: str) -> tuple[str, ...]:
-    """Return the words of one list, of all languages, as they stand, longest first."""
-    found = [
-        unicodedata.normalize("NFC", one)
-        for lang in list_languages()
-        for one in load_words(lang, "spoken")[section][name]
-    ]
-    return tuple(sorted(dict.fromkeys(found), key=len, reverse=True))
-
-
-@cache
-def _alternatives(section: str, name: str) -> str:
-    """Return the words of one list as alternatives of a pattern."""
-    return "|".join(map(re.escape, _list_phrases(section, name)))
-
-
-@cache
-def compile_spoken(shape: str) -> re.Pattern[str]:
-    """Return a pattern in which ``<powers to>`` stands for the words of a list."""
-    filled = re.sub(r"<(\w+) (\w+)>", lambda m: f"(?:{_alternatives(m[1], m[2])})", shape)
-    return re.compile(filled, re.IGNORECASE)
+_SHARE = WordPattern(
+    r"(?<![\w./⁄])(?:«spoken.share-one» )?(\d+)(?: ?-?«spoken.share-endings»)(?![^\W\d_])",
+    re.IGNORECASE,
+)
+_AND_A_HALF = WordPattern(rf"(?<![\d.,])(\d+) «spoken.and-a-half»{_END}", re.IGNORECASE)
+_AND_A_SHARE = WordPattern(r"(?<![\d.,])(\d+) «and» (?=\d+ ?/ ?\d)", re.IGNORECASE)
+_POWER = WordPattern(rf"(?<=[\d)]) «spoken.power» (?:(-|−)|(«minus») )?(\d+){_END}", re.IGNORECASE)
+_TIMES_TEN = WordPattern(r"(?<=\d) «spoken.times-ten» (?=10 ?\^)", re.IGNORECASE)
+_AMONG = WordPattern(r"(\d+) «spoken.among» (\d+)", re.IGNORECASE)
+_TWICE = WordPattern(
+    rf"({_VALUE})[, ]*\(?(?<=[ ,(])«spoken.restating»,? ({_VALUE})\)?", re.IGNORECASE
+)
+_FORMULA_TIMES = WordPattern(" «spoken.formula-times» ", re.IGNORECASE)
+_FORMULA_OVER = WordPattern(" «spoken.formula-over» ", re.IGNORECASE)
+_FORMULA_POWER = WordPattern(rf" «spoken.power» («minus» )?([\w./]+){_END}", re.IGNORECASE)
+_FORMULA_ROOT = WordPattern(rf"{_START}«spoken.formula-root» ([^\W_]+){_END}", re.IGNORECASE)
+_ELEMENT_OR = WordPattern(
+    r",? «spoken.element-or» (?=[^\W\d_]\w{0,3} ?=|[-+−√.]?\d)", re.IGNORECASE
+)
+_UNDECIDED = WordPattern(rf"{_START}«spoken.undecided»{_END}", re.IGNORECASE)
+_GIVING_LIST = WordPattern(
+    rf".*\w.*{_START}«spoken.giving»:? (\([^()]+\)|\[[^\[\]]+\])", re.IGNORECASE
+)
+_ONWARD = WordPattern(r"[,;]? *«spoken.onward»,? (?=[^\W\d]\S* ?=)", re.IGNORECASE)
+_LEADING = (
+    WordPattern(
+        rf"(.*\d.*){_START}«spoken.giving»:? ({_VALUE}(?: (?:[^\W\d]|[\u0980-\u09ff])+)?)",
+        re.IGNORECASE,
+    ),
+    re.compile(rf"([^=:]*(?:[^\W\d][^=:]*\d|\d[^=:]*[^\W\d])[^=:]*): ({_VALUE})"),
+    re.compile(rf"({_PLAIN}) ?(?:→|->|=>|⇒) ?({_VALUE})"),
+    re.compile(rf"({_PLAIN} ?[<>] ?{_PLAIN}) ?(?:,|→|->|=>|⇒) ?(?:[\d+−*/ -]+= ?)?({_VALUE})"),
+)
 
 
 def write_spoken_value(text: str) -> str:
     """Return a number in words that mean a power, a share or a half in signs; else as it is."""
     text = _POINTLESS.sub("", _write_powers(text))
+    text = drop_display(text)
     text = _IN_BASE.sub(lambda m: str(int(m[0], 0)), text)
-    share = r"(?<![\w./⁄])(?:<shares one> )?(\d+)(?: ?-?<shares endings>)(?![^\W\d_])"
-    text = compile_spoken(share).sub(r"1/\1", text)
-    text = compile_spoken(rf"(?<![\d.,])(\d+) <halves half>{_END}").sub(r"\1.5", text)
-    text = compile_spoken(r"(?<![\d.,])(\d+) <halves joint> (?=\d+ ?/ ?\d)").sub(r"\1 ", text)
-    for row in _list_phrases("halves", "words"):
-        value, _, words = row.partition(" ")
-        text = re.sub(rf"{_START}{re.escape(words)}{_END}", value, text, flags=re.IGNORECASE)
-    return _write_share(text)
+    text = _SHARE.sub(r"1/\1", text)
+    text = _AND_A_SHARE.sub(r"\1 ", _AND_A_HALF.sub(r"\1.5", text))
+    halves = dict(row.split(" ", 1)[::-1] for row in list_words("spoken.halves"))
+    return _write_share(_HALVES.sub(lambda m: halves[m[0].lower()], text))
 
 
+_HALVES = WordPattern(rf"{_START}«spoken.halves»{_END}", re.IGNORECASE)
+
+
+def drop_display(text: str) -> str:
+    """Return a number without the call that shows it in a computer algebra system: ``4.09``."""
+    before = ""
+    while text != before:
+        before, text = text, _DISPLAY.sub(r"\1", text)
+    return text
+
+
+_DISPLAY = re.compile(
+    r"(?<!\w)(?:disp(?:lay)?[ds][pf]|remove_numerical_inert)\(([^(),\[\]{}]+)(?:, ?\d+)?\)"
+)
+"""``displaydp(4.09, 2)`` of STACK."""
 _IN_BASE = re.compile(r"(?<![\w.])0(?:[xX][0-9a-fA-F]{1,12}|[bB][01]{1,32})(?!\w)")
 _POINTLESS = re.compile(r"(?<=\S) *(?::-?\)+|;-?\)|:-?D|:P|\^\^|\\)$")
 """Smileys, and a stroke that a keyboard left behind."""
@@ -71,9 +93,8 @@ _POINTLESS = re.compile(r"(?<=\S) *(?::-?\)+|;-?\)|:-?D|:P|\^\^|\\)$")
 
 def _write_powers(text: str) -> str:
     """Return ``2 hoch 4`` as ``2^(4)``, ``3 mal 10 hoch minus 2`` as ``3*10^(-2)``."""
-    power = compile_spoken(rf"(?<=[\d)]) <powers to> (?:(-|−)|(<powers minus>) )?(\d+){_END}")
-    text = power.sub(lambda m: f"^({'-' if m[1] or m[2] else ''}{m[3]})", text)
-    return compile_spoken(r"(?<=\d) <powers times> (?=10 ?\^)").sub("*", text)
+    text = _POWER.sub(lambda m: f"^({'-' if m[1] or m[2] else ''}{m[3]})", text)
+    return _TIMES_TEN.sub("*", text)
 
 
 def _write_share(text: str) -> str:
@@ -99,12 +120,10 @@ def _is_unit(text: str) -> bool:
 
 def write_spoken_formula(text: str) -> str:
     """Return ``f times X over Z`` and ``root N`` in signs, and ``SQRT`` in small letters."""
-    text = compile_spoken(r" <formulas times> ").sub("*", text)
-    text = compile_spoken(r" <formulas over> ").sub("/", text)
-    text = compile_spoken(rf" <powers to> (?:(<powers minus>) )?([\w./]+){_END}").sub(
-        lambda m: f"^({'-' if m[1] else ''}{m[2]})", text
-    )
-    text = compile_spoken(rf"{_START}<formulas root> ([^\W_]+){_END}").sub(r"sqrt(\1)", text)
+    text = _FORMULA_TIMES.sub("*", text)
+    text = _FORMULA_OVER.sub("/", text)
+    text = _FORMULA_POWER.sub(lambda m: f"^({'-' if m[1] else ''}{m[2]})", text)
+    text = _FORMULA_ROOT.sub(r"sqrt(\1)", text)
     text = re.sub(r"(?<![^\W_])sqrt ?\{([^{}]+)\}", r"sqrt(\1)", text)
     return _CAPITALS.sub(lambda m: m[0].lower(), text)
 
@@ -148,7 +167,7 @@ def _is_small_error(match: re.Match[str]) -> bool:
     return error <= _MOST_ERROR * value and len(units) == 1
 
 
-@cache
+@cache_words
 def _list_contrasts() -> tuple[re.Pattern[str], ...]:
     """Return the patterns of sentences that say which of two values is meant."""
     return tuple(
@@ -156,15 +175,13 @@ def _list_contrasts() -> tuple[re.Pattern[str], ...]:
             sentence.replace("{wrong}", f"(?:{_VALUE})").replace("{right}", f"(?P<right>{_VALUE})"),
             re.IGNORECASE,
         )
-        for sentence in _list_phrases("contrasts", "sentences")
+        for sentence in list_words("spoken.contrasts")
     )
 
 
 def _read_same_twice(text: str) -> Iterator[str]:
     """Yield ``1/125 s = 8 ms`` for ``1/125 s or 8 ms``, if both are one value said differently."""
-    match = compile_spoken(
-        rf"({_VALUE})[, ]*\(?(?<=[ ,(])<same between>,? ({_VALUE})\)?"
-    ).fullmatch(text)
+    match = _TWICE.fullmatch(text)
     if match is None or _form(match[1]) == _form(match[2]):
         return
     chain = f"{match[1].strip()} = {match[2].strip()}"
@@ -183,32 +200,62 @@ def _form(value: str) -> tuple[bool, str]:
 def separate_elements(typed: str) -> str:
     """Return ``1; 2`` for ``x = 1 or x = 2`` and ``x ∈ {1, 2}``: a set has all its elements."""
     text = _ELEMENT_OF.sub("", typed.strip())
-    return compile_spoken(r",? <intervals or> (?=[^\W\d_]\w{0,3} ?=|[-+−√.]?\d)").sub("; ", text)
+    return _ELEMENT_OR.sub("; ", text)
 
 
 _ELEMENT_OF = re.compile(r"^[^\W\d_] ?(?:(?:∈|\\in|in) ?(?=[{\[(])|(?:is|ist) (?=[-+−]?\d))")
 
 
+def find_converted(text: str) -> str:
+    """Return the last side of a chain that goes on in another kind of unit; empty if none does.
+
+    ``10.53 µm ≈ 2.63 px`` converts by what the question gives, which cannot be compared.
+    """
+    *before, last = (side.strip() for side in re.split("[=≈]", text))
+    units = [_UNIT_LAST.search(side) for side in (*before[-1:], last)]
+    if len(units) < len(("before", "last")) or not all(units):
+        return ""
+    try:
+        kinds = {read_unit(unit[1]).dimension for unit in units if unit}
+    except FormulaError:
+        return ""
+    return last if len(kinds) > 1 else ""
+
+
+_UNIT_LAST = re.compile(r"\d ?((?:[^\W\d]|[µ°%])[^\d\s]*)$")
+
+
 def find_given_value(text: str) -> tuple[str, str]:
     """Return what a text says and the value it leads to: ``4 bits give 16``; empty if none."""
     for shape in _LEADING:
-        match = compile_spoken(shape).fullmatch(text)
-        if match and not compile_spoken(rf"{_START}<giving refused>{_END}").search(match[1]):
+        match = shape.fullmatch(text)
+        if match and not _UNDECIDED.search(match[1]):
             return match[1], match[2]
     return "", ""
 
 
-_LEADING = (
-    rf"(.*\d.*){_START}<giving words>:? ({_VALUE}(?: (?:[^\W\d]|[\u0980-\u09ff])+)?)",
-    rf"([^=:;]*[^\W\d][^=:;]*\d[^=:;]*): ({_VALUE})",
-    rf"({_PLAIN}) ?(?:→|->|=>|⇒) ?({_VALUE})",
-    rf"({_PLAIN} ?[<>] ?{_PLAIN}) ?(?:,|→|->|=>|⇒) ?(?:[\d+−*/ -]+= ?)?({_VALUE})",
-)
+def list_given_lists(text: str) -> Iterator[str]:
+    """Yield the several values that a text leads to, and those with words before their names.
+
+    ``this gives (0.9; 0.7)``, ``half each: 48 black, 48 white``, ``s = 7, then r = 2``.
+    """
+    listed = _GIVING_LIST.fullmatch(text)
+    if listed:
+        yield listed[1]
+    behind = _BEHIND_COLON.fullmatch(text)
+    if behind:
+        yield behind[1]
+    parted = _ONWARD.sub("; ", text)
+    if parted != text:
+        yield parted.removeprefix("; ")
+
+
+_BEHIND_COLON = re.compile(r"[^:]*\d[^:]*[^\W\d][^:]*: ([^:]*\d[^:]*)")
 
 
 def read_share(typed: str) -> str:
     """Return ``1/5`` for ``1 in 5`` and ``1 out of 5``; empty if it is none."""
-    match = compile_spoken(r"(\d+) <shares among> (\d+)").fullmatch(typed.strip(" ."))
+    match = _AMONG.fullmatch(typed.strip(" ."))
     return f"{match[1]}/{match[2]}" if match and int(match[1]) < int(match[2]) else ""
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Container, Iterator, Mapping
-from functools import cache, lru_cache
+from functools import lru_cache, partial
 from typing import Any, NamedTuple
 
 import msgspec
@@ -12,147 +12,11 @@ from flint import arb, fmpq
 
 from quizgen.core.errors import FormulaError
 from quizgen.grading.judging.spelling import typo_distance
-from quizgen.locale import FIRST, list_languages, load_words
+from quizgen.locale import FIRST, cache_words, list_languages, load_words
+from quizgen.locale.word_patterns import WordPattern, list_tables
 from quizgen.maths.numbers import to_rational
 from quizgen.maths.precision import working_precision
 from quizgen.maths.units import Unit, UnitRegistry, active_units
-
-WORDS = {
-    "pix": "px",
-    "MP": "Mpx",
-    "meters": "m",
-    "মি": "m",
-    "millimeters": "mm",
-    "মিমি": "mm",
-    "centimeter": "cm",
-    "centimeters": "cm",
-    "সেমি": "cm",
-    "kilometers": "km",
-    "কিমি": "km",
-    "micrometer": "um",
-    "micrometers": "um",
-    "micron": "um",
-    "microns": "um",
-    "মাইক্রন": "um",
-    "nanometers": "nm",
-    "sec": "s",
-    "secs": "s",
-    "msec": "ms",
-    "degree": "deg",
-    "degrees": "deg",
-    "grad": "deg",
-    "ডিগ্রি": "deg",
-    "ডিগ্রী": "deg",
-    "blende": "stop",
-    "blenden": "stop",
-    "per cent": "%",
-    "ADU": "DN",
-    "fps": "frame/s",
-    "LP": "lp",
-    "Lp": "lp",
-    "LUX": "lx",
-    "Sec": "s",
-    "Sek": "s",
-    "sek": "s",
-    "সে": "s",
-    "f-stop": "stop",
-    "full stop": "stop",
-    "full stops": "stop",
-    "ganze blende": "stop",
-    "ganze blenden": "stop",
-    "f-stops": "stop",
-    "f/stops": "stop",
-    "pct": "%",
-    "v. H": "%",
-    "শতকরা": "%",
-    "পারসেন্ট": "%",
-    "dpt": "1/m",
-    "D": "1/m",
-    "diopter": "1/m",
-    "diopters": "1/m",
-    "dioptre": "1/m",
-    "dioptres": "1/m",
-    "dioptrie": "1/m",
-    "dioptrien": "1/m",
-    "ডায়াপ্টার": "1/m",
-    "bild": "frame",
-    "bilder": "frame",
-    "megapixel": "Mpx",
-    "megapixels": "Mpx",
-    "meter": "m",
-    "millimeter": "mm",
-    "kilometer": "km",
-    "nanometer": "nm",
-    "picometer": "pm",
-    "picometers": "pm",
-    "decimeter": "dm",
-    "decimeters": "dm",
-    "liter": "l",
-    "liters": "l",
-    "milliliter": "ml",
-    "milliliters": "ml",
-    "millilitre": "ml",
-    "cc": "cm^3",
-    "ccm": "cm^3",
-    "cms": "cm",
-    "mms": "mm",
-    "MM": "mm",
-    "CM": "cm",
-    "KM": "km",
-    "PX": "px",
-    "LX": "lx",
-    "LM": "lm",
-    "mins": "min",
-    "hr": "h",
-    "hrs": "h",
-    "ঘন্টা": "h",
-    "Std": "h",
-    "std": "h",
-    "Min": "min",
-    "Sekunde": "s",
-    "KB": "kB",
-    "Kbit": "kbit",
-    "Mb": "Mbit",
-    "Gb": "Gbit",
-    "kb": "kbit",
-    "kbps": "kbit/s",
-    "Mbps": "Mbit/s",
-    "Gbps": "Gbit/s",
-    "electron volt": "eV",
-    "electron volts": "eV",
-    "bps": "bit/s",
-    "mtr": "m",
-    "metern": "m",
-    "gr": "g",
-    "pxl": "px",
-    "inches": "in",
-    "Inch": "in",
-    "degC": "°C",
-    "celsius": "°C",
-    "Euro": "€",
-    "Kelvin": "K",
-    "f/stop": "stop",
-    "cycle": "lp",
-    "cycles": "lp",
-    "zyklus": "lp",
-    "zyklen": "lp",
-    "line pair": "lp",
-    "line pairs": "lp",
-    "db": "dB",
-    "DB": "dB",
-    "Db": "dB",
-    "b": "bit",
-    "kph": "km/h",
-    "kmh": "km/h",
-    "ইভি": "eV",
-    "ইলেকট্রন-ভোল্ট": "eV",
-    "ইলেকট্রন ভোল্ট": "eV",
-    "ইলেকট্রনভোল্ট": "eV",
-    "hz": "Hz",
-    "HZ": "Hz",
-}
-"""Abbreviations and other spellings (any case when they are longer than three letters); what units
-are called in full stands in ``speech.toml`` of each language."""
 
 ELECTRON_VOLT = fmpq(1602176634, 10**28)
 """Joules in one electron volt, exactly so by definition."""
@@ -209,22 +73,33 @@ class _Spellings(NamedTuple):
     lower: Mapping[str, str]
 
 
-@cache
+@cache_words
+def list_unit_words() -> dict[str, str]:
+    """Return abbreviations and other spellings of units, of every language, with the listed unit.
+
+    What units are called in full stands in ``speech.toml`` of each language.
+    """
+    return {word: unit for table in list_tables("unit-words") for word, unit in table.items()}
+
+
+@cache_words
 def _build_unit_spellings(known: UnitRegistry) -> _Spellings:
     """Return the words for the listed units, and for those that a bank defines."""
     words = {
         **dict(_iter_spoken_words(known.simple)),
         **dict(_iter_prefixed_words(known.words, known.simple)),
         **dict(_iter_bank_words(known)),
-        **WORDS,
+        **list_unit_words(),
     }
     return _Spellings(words, {word.lower(): to for word, to in words.items() if len(word) > 3})
 
 
 _POINTS = re.compile(r"\. ?")
 _BRACKETS = re.compile(r"[(\[]([^()\[\]*/· ]+)[)\]]")
-_SQUARE = re.compile(r"(?:square |quadrat|বর্গ ?)([^\W\d_][^*/· ]*)", re.IGNORECASE)
-_SQUARED = re.compile(r"([^\W\d_]+) (?:squared|zum quadrat)", re.IGNORECASE)
+_SQUARE = WordPattern(r"«square»([^\W\d_][^*/· ]*)", re.IGNORECASE)
+_SQUARED = WordPattern(r"([^\W\d_]+) «squared»", re.IGNORECASE)
+_ONE_PER = WordPattern(r"^«per»\s+")
+_PER = WordPattern(r"\s+«per»\s+|\s*«per-joined»\s*")
 _PART = re.compile(r"[*/·]|[^*/·]+")
 
 
@@ -280,10 +155,29 @@ def _find_unit_word(word: str) -> str:
     listed = words.get(word) or lower.get(word.lower()) or words.get(_POINTS.sub("", word))
     if listed is None and word.startswith(("µ", "μ")):
         listed = "u" + word[1:] if "u" + word[1:] in known.simple else None
+    listed = listed or _find_parted_prefix(word, words, known.simple)
     listed = listed or _find_misspelt_unit(word, lower)
     if listed is None:
         raise FormulaError(f"unknown unit {word!r}")
     return listed
+
+
+def _find_parted_prefix(word: str, words: Mapping[str, str], simple: Container[str]) -> str | None:
+    """Return the unit of ``milli eV``, whose prefix is a word of its own; None if it has none."""
+    prefix, _, rest = word.partition(" ")
+    letter = _list_prefix_words().get(prefix.lower()) if rest and " " not in rest else None
+    unit = rest if rest in simple else words.get(rest, "")
+    return letter + unit if letter and unit and letter + unit in simple else None
+
+
+@cache_words
+def _list_prefix_words() -> Mapping[str, str]:
+    """Return the words for prefixes in every language, and their letters."""
+    return {
+        pattern.format("").lower(): letter
+        for lang in list_languages()
+        for letter, pattern in load_words(lang, "speech")["prefixes"].items()
+    }
 
 
 def _find_misspelt_unit(word: str, known: Mapping[str, str]) -> str | None:
@@ -317,12 +211,31 @@ def read_unit(text: str) -> TypedUnit:
     return _parse_typed_unit(active_units(), _MU.sub("µ", _INTO.sub(r"\1", text.strip())))
 
 
-_MU = re.compile(r"^(?:mu|micro|mikro) ?(?=[ms]$)")
-_INTO = re.compile(r"^\(?in +([^()]+)\)?$")
+def part_joined_units(typed: str, listed: str) -> str:
+    """Return an answer with ``Nm`` as ``N*m`` where a unit with that product, or like it, is asked.
+
+    Only products in the unit that is asked are looked for, and common ones of its kind; none that
+    is a unit itself.
+    """
+    wanted = listed_unit(listed).dimension
+    alike = [product for product in _COMMON if listed_unit(product).dimension == wanted]
+    for product in dict.fromkeys((*_PRODUCTS.findall(listed), *alike)):
+        joined = product.replace("*", "")
+        if joined not in active_units().simple:
+            pattern = rf"(?<![^\W\d_])([kMGmµcd]?){joined}(?![^\W_])"
+            typed = re.sub(rf"/ ?{pattern}", rf"/(\g<1>{product})", typed)
+            typed = re.sub(pattern, rf"\g<1>{product}", typed)
+    return typed
+
+
+_COMMON = ("N*m", "W*s", "V*s", "A*s", "V*A", "ohm*m", "N*s", "kg*m")
+_PRODUCTS = re.compile(r"[^\W\d_]+(?:\*[^\W\d_]+)+")
+_MU = WordPattern(r"^«micro» ?(?=[ms]$)")
+_INTO = WordPattern(r"^\(?«in» +([^()]+)\)?$")
 """The unit that a number is said to be in, ``(in degrees)``: no inch."""
 
 
-@lru_cache(maxsize=2048)
+@partial(cache_words, most=2048)
 def _parse_typed_unit(_known: UnitRegistry, text: str) -> TypedUnit:
     """Return a typed unit, cached for each registry.
 
@@ -346,16 +259,25 @@ def _parse_compound_unit(text: str) -> str:
     FormulaError
         If a name in it is not listed.
     """
+    text = _BELOW.sub(_divide_by_each, text)
     text = _BRACKETS.sub(r"\1", text)
     if (text[:1], text[-1:]) in {("(", ")"), ("[", "]")} and text.count(text[0]) == 1:
         text = text[1:-1]
-    text = re.sub(r"^(?:per|pro|je)\s+", "1/", text)
-    text = re.sub(r"\s+(?:per|pro|je)\s+|\s*প্রতি\s*", "/", text)
+    text = _PER.sub("/", _ONE_PER.sub("1/", text))
     text = re.sub(r" *([*/·]) *", r"\1", text)
     text = _SQUARE.sub(r"\1^2", text.replace("**", "^"))
     text = _SQUARED.sub(r"\1^2", text)
     pieces = _PART.findall(text)
     return "".join(piece if piece in "*/·" else _parse_unit_product(piece) for piece in pieces)
+
+
+_BELOW = re.compile(r"/ ?[(\[]([^()\[\]/]*[^()\[\]/\s][ *·][^()\[\]/]+)[)\]]")
+"""A product below the bar: ``J/(kg K)``."""
+
+
+def _divide_by_each(match: re.Match[str]) -> str:
+    """Return ``/kg/K`` for ``/(kg K)``."""
+    return "".join(f"/{part}" for part in re.split(r"[ *·]+", match[1].strip()))
 
 
 def _parse_unit_product(piece: str) -> str:

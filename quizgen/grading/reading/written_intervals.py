@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from quizgen.grading.reading.spoken_values import compile_spoken
+from quizgen.locale.word_patterns import WordPattern
 
 _NAME = r"(?!inf|oo)[^\W\d_]\w*"
 _BOUND = r"[^<>≤≥=,;|&∧()\[\]]+?"
@@ -25,20 +25,23 @@ _ABOVE, _BELOW = (
     )
     for sign, turned in ((_MORE, _LESS), (_LESS, _MORE))
 )
-_BOTH = r" <intervals and> | ?(?:&&?|∧) ?|[;,] (?=\D)"
+_BOTH = WordPattern(r" «and» | ?(?:&&?|∧) ?|[;,] (?=\D)", re.IGNORECASE)
+_BEHIND = WordPattern(" «spoken.interval-behind»$", re.IGNORECASE)
+_BUT = WordPattern(r"«spoken.everything-but» (.+)", re.IGNORECASE)
 _WITHOUT = re.compile(r"[Rℝ] ?(?:\\setminus|\\\\|\\|−|-) ?(?=[\[\](])")
 _PIECE = re.compile(
     rf"(?P<left>[\[\](]) ?(?P<low>{_BOUND}) ?[;,] ?(?P<high>{_BOUND}) ?(?P<right>[\])\[])"
     rf"|(?P<low2>{_BOUND}) ?(?P<from>{_LESS}) ?{_NAME} ?(?P<to>{_LESS}) ?(?P<high2>{_BOUND})"
 )
 _END = r"[-+−]?(?:\d+(?:[.,/]\d+)?|∞)"
-_IN_WORDS = (
-    rf"(?:<intervals all> )?(?:<intervals from> )?(?P<low>{_END})"
-    r"(?: ?\(?(?P<first>(?P<in1><intervals inclusive>)|<intervals exclusive>)\)?)?"
-    r",? <intervals to> "
-    r"(?:(?P<before>(?P<in2><intervals inclusive>)|<intervals exclusive>) )?"
+_IN_WORDS = WordPattern(
+    rf"(?:«spoken.interval-all» )?(?:«spoken.interval-from» )?(?P<low>{_END})"
+    r"(?: ?\(?(?P<first>(?P<in1>«spoken.inclusive»)|«spoken.exclusive»)\)?)?"
+    r",? «spoken.interval-to» "
+    r"(?:(?P<before>(?P<in2>«spoken.inclusive»)|«spoken.exclusive») )?"
     rf"(?P<high>{_END})"
-    r"(?:,? ?\(?(?P<last>(?P<in3><intervals inclusive>)|<intervals exclusive>)\)?)?"
+    r"(?:,? ?\(?(?P<last>(?P<in3>«spoken.inclusive»)|«spoken.exclusive»)\)?)?",
+    re.IGNORECASE,
 )
 
 
@@ -48,7 +51,7 @@ def write_interval(typed: str) -> str:
     Anything else is returned as it is.
     """
     text = re.sub(r"= ?<|< =", "<=", re.sub(r"> =", ">=", typed.strip()))
-    text = compile_spoken(r" <intervals behind>$").sub("", text)
+    text = _BEHIND.sub("", text)
     builder = _BUILDER.fullmatch(text)
     text = builder[1] if builder else text
     falling = _FALLING.fullmatch(text)
@@ -62,7 +65,7 @@ def write_interval(typed: str) -> str:
 
 def _join_conditions(text: str) -> str:
     """Return ``0 < x <= 1`` for both of its conditions; a union where they exclude each other."""
-    parts = [part.strip() for part in compile_spoken(_BOTH).split(text)]
+    parts = [part.strip() for part in _BOTH.split(text)]
     if len(parts) != len(("low", "high")):
         return ""
     for one, other in (parts, parts[::-1]):
@@ -93,7 +96,7 @@ def _is_above(low: str, high: str) -> bool:
 def _turn_inside_out(text: str) -> str:
     r"""Return what is left over by ``R \ (4; 14)`` and ``everything except 4 < x < 14``."""
     taken = _WITHOUT.sub("", text) if _WITHOUT.match(text) else ""
-    taken = taken or compile_spoken(r"<intervals except> (.+)").sub(r"\1", text)
+    taken = taken or _BUT.sub(r"\1", text)
     piece = _PIECE.fullmatch(taken) if taken != text else None
     if piece is None:
         return ""
@@ -105,7 +108,7 @@ def _turn_inside_out(text: str) -> str:
 
 def _read_words(text: str) -> str:
     """Return ``[-1; 5]`` for ``from -1 to 5 inclusive``; empty if nothing is said of its ends."""
-    match = compile_spoken(_IN_WORDS).fullmatch(text)
+    match = _IN_WORDS.fullmatch(text)
     if match is None:
         return ""
     last, with_high = match["before"] or match["last"], match["in2"] or match["in3"]
