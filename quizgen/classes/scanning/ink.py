@@ -54,8 +54,9 @@ LETTER_AT = (0.4, 5.0)
 """Millimetres right of a box between which its letter stands."""
 FEWEST_PIXELS, LONGEST_SPECK = 12, 5
 """Half pixels of ink beside all fields, and how long it is, that are no dirt."""
-WRITTEN = 2
-"""Half pixels of ink on a line that are no dirt; blank lines of simulated scans have none."""
+WRITTEN_ON_PAPER, WRITTEN_ON_SHEET = 5, 3
+"""Half pixels of ink on a line that are no dirt: on whole papers, where rests of the lines between
+cells may be left, and on answer sheets, whose blank lines are clean."""
 OVERHANG = 5
 """Half pixels that ink which is fast to the frame of an empty box may hang out."""
 
@@ -274,11 +275,11 @@ def _goes_through(
     return False
 
 
-def is_written_on(line: SheetField, ink: InkMap) -> bool:
-    """Return whether something is written on a line."""
+def is_written_on(line: SheetField, ink: InkMap, least: int = WRITTEN_ON_PAPER) -> bool:
+    """Return whether something is written on a line: a piece of at least so many half pixels."""
     left, top, right, bottom = _bound_pixels(line, 0.6, SHARP * HALF)
     pieces = np.unique(ink.labels[top:bottom, left:right])
-    return any(piece and ink.stats[piece, 4] >= WRITTEN for piece in pieces)
+    return any(piece and ink.stats[piece, 4] >= least for piece in pieces)
 
 
 def has_loose_ink(fields: Sequence[SheetField], ink: InkMap) -> bool:

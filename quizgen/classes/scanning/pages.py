@@ -23,6 +23,8 @@ from quizgen.classes.scanning.ink import (
     DOUBTFUL,
     NOISY,
     WITHDRAWN,
+    WRITTEN_ON_PAPER,
+    WRITTEN_ON_SHEET,
     BoxReading,
     InkMap,
     has_loose_ink,
@@ -517,7 +519,8 @@ class _SheetReader:
                 answer, sure, asked = "", 1.0, fault
                 room = [one for one in fields if one.kind == "room"]
                 lines = [one for one in fields if one.kind == "line"]
-                if any(is_written_on(one, ink) for one in lines):
+                least = WRITTEN_ON_PAPER if self.is_paper else WRITTEN_ON_SHEET
+                if any(is_written_on(one, ink, least) for one in lines):
                     asked = asked or WRITTEN
                 elif has_loose_ink(lines, ink) or any(is_written_on(one, ink) for one in room):
                     asked = asked or BESIDE
