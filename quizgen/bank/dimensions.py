@@ -51,6 +51,10 @@ _PART_OF_TURN = 45
 _ROOT = Fraction(1, 2)
 
 
+_ENTRIES = frozenset({"complex", "matrix", "vector"})
+"""Kinds whose answers are several numbers in one unit."""
+
+
 class _ClashError(Exception):
     """Two kinds of quantities where one is needed."""
 
@@ -92,7 +96,7 @@ def _iter_unit_errors(template: Template) -> Iterator[BankError]:
         for problem in _check_step(units, step, known):
             file, at = template.solver_file or template.file, ("alternatives", step.name)
             yield BankError(problem, rule="QG203", file=file, place=at)
-    yield from _check_complex_parts(template, known)
+    yield from _check_entries(template, known)
     for index, part in enumerate(template.rules.part):
         asked = part.answer.get("unit")
         for name in asked_quantities(part.answer) if isinstance(asked, str) else ():
@@ -109,30 +113,37 @@ def _iter_unit_errors(template: Template) -> Iterator[BankError]:
                 yield BankError(what, rule="QG202", file=template.file, place=where)
 
 
-def _check_complex_parts(template: Template, known: Mapping[str, Dimension]) -> Iterator[BankError]:
-    """Yield complex answers whose unit is not that of their formula."""
+def _check_entries(template: Template, known: Mapping[str, Dimension]) -> Iterator[BankError]:
+    """Yield complex numbers, vectors and matrices whose unit is not that of their formula.
+
+    A matrix of different kinds of quantities has no unit.
+    """
     for index, part in enumerate(template.rules.part):
         form = template.chain.form_by_name.get(asked_form(part.answer))
-        if part.answer.get("kind") != "complex" or form is None:
+        if part.answer.get("kind") not in _ENTRIES or form is None:
             continue
         unit = str(part.answer.get("unit", ""))
-        wanted = _parse_unit_dimension(template.about.system, unit)
+        wanted = _remove_angles(_parse_unit_dimension(template.about.system, unit))
         try:
-            found = _infer_dimension(Call("add", _split_complex(form.expr)), known)
+            inferred = [_infer_dimension(entry, known) for entry in _list_entries(form.expr)]
         except _ClashError as error:
-            found, what = {}, str(error)
+            what = str(error)
         else:
-            what = f"is in {_format_dimension(found or {})}, and is asked in {unit or 'no unit'!r}"
-            if found is None or _remove_angles(found) == _remove_angles(wanted):
+            found = [_remove_angles(one) for one in inferred if one is not None]
+            odd = [one for one in found if one != wanted]
+            if not odd or (not unit and any(one != odd[0] for one in found)):
                 continue
+            what = f"is in {_format_dimension(odd[0])}, and is asked in {unit or 'no unit'!r}"
         said = f"part {index + 1}: {form.name} {what}"
         place = ("part", index, "answer")
         yield BankError(said, rule="QG202", file=template.file, place=place)
 
 
-def _split_complex(expr: Expr) -> tuple[Expr, ...]:
-    """Return real and imaginary part of a complex number, else the number twice."""
-    return expr.args if isinstance(expr, Call) and expr.op == "complex" else (expr, expr)
+def _list_entries(expr: Expr) -> tuple[Expr, ...]:
+    """Return the real numbers of a matrix, a vector or a complex number but zeros."""
+    if isinstance(expr, Call) and expr.op in {"complex", "matrix", "vector", "row"}:
+        return tuple(one for arg in expr.args for one in _list_entries(arg))
+    return () if expr == Num(Fraction(0)) else (expr,)
 
 
 def _check_step(

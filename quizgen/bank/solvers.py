@@ -27,8 +27,7 @@ from quizgen.core.errors import BankError
 from quizgen.core.imports import LOCK
 from quizgen.core.untrusted import read_bytes
 from quizgen.maths.chain import Chain
-from quizgen.maths.model import Model, leave_symbolic, work_out
-from quizgen.maths.operators import UNEVALUATED
+from quizgen.maths.model import WAITING, Model, leave_symbolic, work_out
 
 _CHAINS = CompileCache("chains", Chain, "sympy")
 _PRIVATE = "_quizgen_solvers_"
@@ -191,9 +190,7 @@ _EVALUATING = frozenset({
 })  # fmt: skip
 """Functions and methods of SymPy that give nonsense or fail where nothing is evaluated."""
 _WORK_OUT, _LEAVE = "_quizgen_work_out", "_quizgen_leave_symbolic"
-_WAITING = UNEVALUATED | {"igcd", "ilcm"}
-"""Functions of SymPy that need numbers, and get names where a solver is compiled."""
-_REWRITTEN = re.compile(rf"\b(?:evaluate|{'|'.join(sorted(_WAITING))})\(".encode())
+_REWRITTEN = re.compile(rf"\b(?:evaluate|{'|'.join(sorted(WAITING))})\(".encode())
 
 
 class _WorkingOut(ast.NodeTransformer):
@@ -225,9 +222,9 @@ class _WaitingForNumbers(ast.NodeTransformer):
         return node
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
-        """Rewrite the call of one of ``_WAITING``."""
+        """Rewrite the call of one of ``WAITING``."""
         self.generic_visit(node)
-        if _called_name(node) in _WAITING:
+        if _called_name(node) in WAITING:
             node.func = ast.Call(ast.Name(_LEAVE, ast.Load()), [node.func], [])
         return node
 
@@ -287,6 +284,8 @@ def _is_pure(source: bytes) -> bool:
     return True
 
 
+_NEEDS_NUMBER = re.compile("is not an integer|symbols to int|truth value of Relational|float\\b")
+"""What SymPy and Python say where they need a number and get a name."""
 _CODES = (
     (ModuleNotFoundError, "QG134"),
     (NameError, "QG135"),
@@ -321,4 +320,6 @@ def author_error_context(file: Path) -> Iterator[None]:
         known = next((code for kind, code in _CODES if isinstance(error, kind)), "QG133")
         rule = getattr(error, "rule", "") or known
         what = f"{type(error).__name__}: {error}"
+        if _NEEDS_NUMBER.search(what):
+            what += " (what is drawn is a letter here: docs/functions.md has what waits for it)"
         raise BankError(what, rule=rule, file=file, line=number or 0) from error

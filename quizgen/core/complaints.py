@@ -57,6 +57,9 @@ def complaint_of(
     rule, what, key = _explain_type_error(
         text[: found.start()] if found else text, _find_type_at_place(kind, place)
     )
+    name = key or (place[-1] if place else "")
+    if len((*before, *place)) > (not key) and name in getattr(kind, "__struct_encode_fields__", ()):
+        what += f"; {name!r} of the whole file stands above its first [table]"
     said = written_place((*before, *place))
     whole = (*before, *place, *([key] if key else []))
     return BankError(f"{said}: {what}" if said else what, rule=rule, place=whole)

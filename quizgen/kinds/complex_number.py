@@ -5,23 +5,18 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
-from contextlib import suppress
-from fractions import Fraction
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 import msgspec
 from flint import fmpq
 
-from quizgen.core.errors import FormulaError
-from quizgen.grading.diagnosis.carry_forward import to_constant
 from quizgen.grading.judging.sampled_equality import values_agree
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.formulas import read_formula
-from quizgen.grading.reading.units import TypedUnit, listed_unit, read_unit
 from quizgen.grading.rounding import USUAL_FIGURES, format_figures, format_rounded_key
 from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
-from quizgen.kinds.asking import hint, make_spec, misconception_specs, unit_hint
+from quizgen.kinds.asking import hint, make_spec, misconception_specs
 from quizgen.kinds.contract import AnswerKind, AskedPart, PartContext
 from quizgen.kinds.forms import (
     IMAGINARY,
@@ -30,11 +25,16 @@ from quizgen.kinds.forms import (
     EntriesSpec,
     drop_name,
     entry_matches,
-    format_plain,
+    find_factor,
+    find_unit,
+    format_entry,
     parse_entry,
     round_number,
+    scale_entry,
+    separate_unit,
     split_sides,
     typeset_key,
+    write_constant,
 )
 from quizgen.locale import translate
 from quizgen.maths.complex_values import ComplexValue, evaluate_complex
@@ -42,8 +42,7 @@ from quizgen.maths.constants import parse_exact
 from quizgen.maths.notation import FormulaReadError, format_tree, parse_formula, pretty
 from quizgen.maths.numbers import to_float
 from quizgen.maths.tidy import tidy_formula
-from quizgen.maths.tree import Call, Expr, Num, Sym, make_number, names_in, operators_in, walk_tree
-from quizgen.maths.units import UnitRegistry, build_unit_registry, format_unit
+from quizgen.maths.tree import Call, Expr, Sym, make_number, names_in, operators_in, walk_tree
 from quizgen.maths.values import Value
 
 if TYPE_CHECKING:
@@ -57,13 +56,11 @@ class AuthoredComplex(AuthoredEntries, kw_only=True, tag="complex", frozen=True)
 
     of: str
     form: Literal["cartesian", "polar", "any"] = "any"
-    unit: str = ""
 
 
 class ComplexSpec(EntriesSpec, kw_only=True, frozen=True):
     """Complex: ``parts`` = real and imaginary, how near; ``form`` = cartesian, polar or any.
 
-    ``unit`` is that of both parts, ``define`` are units of the question's bank.
     ``rel`` and ``abs`` are distances in the plane, decimals and figures those of both parts.
     """
 
@@ -71,21 +68,18 @@ class ComplexSpec(EntriesSpec, kw_only=True, frozen=True):
 
     parts: list[str]
     form: Literal["cartesian", "polar", "any"] = "any"
-    unit: str = ""
-    define: tuple[str, ...] = ()
     traps: dict[str, list[str]] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
-        """Check both parts, and the unit."""
+        """Check both parts."""
         super().validate()
-        listed_unit(self.unit)
         for parts in (self.parts, *self.traps.values()):
             if len(parts) != len(("real", "imaginary")):
                 raise ValueError("parts: the real and the imaginary part are needed")
             for text in parts:
                 parse_exact(text)
 
-    def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
+    def judge_entries(self, typed: str, scale: Value, options: GradingOptions, /) -> Verdict:
         """Judge a typed complex number, the last of a chain.
 
         Raises
@@ -93,22 +87,8 @@ class ComplexSpec(EntriesSpec, kw_only=True, frozen=True):
         FormulaReadError
             If it cannot be read, or the sides of a chain differ.
         """
-        typed, unit = self._split_unit(typed)
-        if unit is not None and unit.dimension != listed_unit(self.unit).dimension:
-            said = {"given": format_unit(unit.text), "asked": format_unit(self.unit)}
-            return wrong(typed, "unit-clash", **said)
-        verdict = self._judge_number(typed, unit, options)
-        if not self.unit or unit is not None or verdict.credit < 1:
-            return verdict
-        credit = max(HALF, 1 - HALF / (options.points or Fraction(1)))
-        return partial(credit, verdict.read_as, "unit-missing", unit=format_unit(self.unit))
-
-    def _judge_number(self, typed: str, unit: TypedUnit | None, options: GradingOptions) -> Verdict:
-        """Return the verdict on a typed number in a unit, by default that of the key."""
-        tree, value = self._read(typed, options)
-        if unit is not None:
-            scale = unit.factor / listed_unit(self.unit).factor
-            value = value[0] * scale, value[1] * scale
+        tree, (real, imaginary) = self._read(typed, options)
+        value = real * scale, imaginary * scale
         read_as = pretty.format_formula(format_tree(tree))
         rounded = find_written_form(tree) == "polar"
         if self._is_near(value, self.parts, rounded=rounded):
@@ -117,27 +97,6 @@ class ComplexSpec(EntriesSpec, kw_only=True, frozen=True):
             if self._is_near(value, parts, rounded=rounded):
                 return wrong(read_as, f"trap:{name}")
         return wrong(read_as, self._find_slip(value))
-
-    def known_units(self) -> UnitRegistry:
-        """Return the units that may be typed: those listed, and those of the question's bank."""
-        return build_unit_registry(self.define)
-
-    def _split_unit(self, typed: str) -> tuple[str, TypedUnit | None]:
-        """Return an answer without its unit, which may stand after each part, and the unit.
-
-        It is None if there is none, or none is asked.
-        """
-        if not self.unit:
-            return typed, None
-        spaced = _UNIT_AFTER.sub(r"\1 ", drop_name(typed))
-        for word in dict.fromkeys(_UNIT_WORD.findall(spaced)):
-            if word in _NO_UNITS:
-                continue
-            with suppress(FormulaError):
-                unit = read_unit(word)
-                inside = rf"(?<![^\W\d_]){re.escape(word)}(?![^\W_])"
-                return re.sub(inside, " ", spaced).strip(), unit
-        return typed, None
 
     def _read(self, typed: str, options: GradingOptions) -> tuple[Expr, ComplexValue]:
         """Return the last side of a typed number and its value; errors as ``judge``."""
@@ -153,14 +112,13 @@ class ComplexSpec(EntriesSpec, kw_only=True, frozen=True):
 
     def read_form(self, typed: str, options: GradingOptions, /) -> Expr:
         """Return a typed number as its two parts; errors as ``judge``."""
-        plain, unit = self._split_unit(typed)
-        factor = (unit or listed_unit(self.unit)).factor
+        plain, unit = self.split_unit(typed)
         value = self._read(plain, options)[1]
-        return Call("complex", tuple(to_constant(part * factor) for part in value))
+        return write_constant(scale_entry(value, self.base_factor(unit)))
 
     def replace_key(self, form: Expr, /) -> ComplexSpec:
         """Return the specification with another number as its key, and without mistakes."""
-        parts = _list_parts(form, listed_unit(self.unit))
+        parts = _list_parts(form, self.base_factor(None))
         return msgspec.structs.replace(self, parts=parts, traps={})
 
     def _is_near(self, value: ComplexValue, parts: list[str], *, rounded: bool) -> bool:
@@ -192,13 +150,11 @@ class ComplexSpec(EntriesSpec, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as it is printed, and as it can be typed back."""
-        number = self._show_number()
-        if not self.unit:
-            return number
-        bare = self.form == "polar" and self.tolerance
-        return f"{number if bare else f'({number})'} {format_unit(self.unit)}"
+        number = self.show_plain()
+        bare = not self.unit or (self.form == "polar" and self.tolerance)
+        return self.add_unit(number if bare else f"({number})")
 
-    def _show_number(self) -> str:
+    def show_plain(self) -> str:
         """Return the number of the key alone."""
         if self.form == "polar" and self.tolerance:
             return "{}\N{ANGLE}{}°".format(*map(pretty.format_number, self.rounded_polar()))
@@ -229,23 +185,17 @@ def _square(parts: Sequence[Value]) -> Value:
     return real * real + imaginary * imaginary
 
 
-_UNIT_AFTER = re.compile(r"(?<=\d)([ij])(?=[^\W\d_])")
-_UNIT_WORD = re.compile(r"(?<![^\W\d_])[^\W\d_]+(?:[/*·^][^\W_]+)*")
-_NO_UNITS = frozenset(
-    {"i", "j", "e", "exp", "sqrt", "cos", "sin", "pi", "π", "deg", "rad", "degrees"}
-)
 _SIZE_AND_ANGLE = re.compile(
     r"\(?\s*(?P<size>[^;∠()]+?)\s*(?:∠|;|/_)\s*(?P<angle>[^;∠()]*?)\s*"
     r"(?P<unit>°|deg(?:rees?)?\b|\^?\\circ|rad\b|(?<=π)|(?<=pi))\s*\)?"
 )
-_UNIT_FIRST = re.compile(r"(?<![^\W\d_])([ij]) ?(?=\d)")
 
 
 def _spell_out(typed: str) -> str:
     """Return ``50∠53°`` and ``(50; 53°)`` as a formula, and ``j40`` as a product."""
     polar = _SIZE_AND_ANGLE.fullmatch(" ".join(typed.split()))
     if polar is None:
-        return _UNIT_FIRST.sub(r"\1*", typed)
+        return separate_unit(typed)
     unit = "" if polar["unit"] in {"rad", ""} else "°"
     return f"({polar['size']})*exp(i*({polar['angle']}{unit}))"
 
@@ -312,47 +262,35 @@ def _agree(a: Value, b: Value) -> bool:
 
 def ask(part: PartContext) -> AskedPart[ComplexSpec]:
     """Return the number of the solver, and what each mistake makes of it."""
-    define = part.defined_units
-    with build_unit_registry(define).activate():
-        unit = listed_unit(part.answer.get("unit", ""))
-    traps = {name: _list_parts(f, unit) for name, f in part.misconception_forms().items()}
+    factor = find_factor(part)
+    traps = {name: _list_parts(f, factor) for name, f in part.misconception_forms().items()}
     notes = part.misconception_notes(traps) if traps else {}
-    parts = _list_parts(part.answer_form(), unit)
-    given = {"parts": parts, "traps": traps, "notes": notes, "define": define}
+    parts = _list_parts(part.answer_form(), factor)
+    given = {"parts": parts, "traps": traps, "notes": notes, **find_unit(part)}
     spec = make_spec(ComplexSpec, part, **given)
     return AskedPart(spec, mistakes=misconception_specs(spec, "parts"))
 
 
-def _list_parts(form: Expr, unit: TypedUnit) -> list[str]:
-    """Return real and imaginary part of a form in a unit; those of a real form end with 0."""
-    parts: tuple[Expr, ...] = (form, Num(Fraction(0)))
-    if isinstance(form, Call) and form.op == "complex":
-        parts = form.args
-    if unit.factor == 1:
-        return list(map(format_plain, parts))
-    size = to_constant(unit.factor)
-    return [format_plain(tidy_formula(Call("div", (part, size)))) for part in parts]
+def _list_parts(form: Expr, factor: Value) -> list[str]:
+    """Return real and imaginary part of a form in a unit; a real form has the imaginary part 0."""
+    entry = format_entry(form, factor)
+    return [entry, "0"] if isinstance(entry, str) else entry
 
 
 def input_hints(spec: ComplexSpec, lang: str) -> tuple[TextOrInlines, ...]:
     """Return how a complex number is typed, and the form that is asked."""
     more = (translate(lang, f"ask.form_{spec.form}"),) if spec.form != "any" else ()
-    unit = (unit_hint(spec.unit, lang),) if spec.unit else ()
-    return (*_HINT(spec, lang), *more, *unit, *spec.hint_rounding(lang))
+    return (*_HINT(spec, lang), *more, *spec.hint_unit(lang), *spec.hint_rounding(lang))
 
 
 def explain_key(spec: ComplexSpec, _lang: str) -> TextOrInlines:
     """The number as it is written by hand, with its unit."""
     number = _typeset_number(spec)
-    if not spec.unit:
-        return number
+    if not spec.unit or (spec.form == "polar" and spec.tolerance):
+        return spec.typeset_with_unit(number)
     from quizgen.typeset.prose import PlainText, to_inlines
 
-    number = to_inlines(number)
-    unit = f"\N{NO-BREAK SPACE}{format_unit(spec.unit)}"
-    if spec.form == "polar" and spec.tolerance:
-        return (*number, PlainText(unit))
-    return (PlainText("("), *number, PlainText(f"){unit}"))
+    return spec.typeset_with_unit((PlainText("("), *to_inlines(number), PlainText(")")))
 
 
 def _typeset_number(spec: ComplexSpec) -> TextOrInlines:
@@ -364,9 +302,9 @@ def _typeset_number(spec: ComplexSpec) -> TextOrInlines:
 
         size, angle = spec.rounded_polar()
         row = MathRow((quantity(size, ""), Ident("\N{ANGLE}"), quantity(angle, "deg")))
-        return (TypesetMaths(row, spec.show()),)
+        return (TypesetMaths(row, spec.show_plain()),)
     if spec.tolerance:
-        return typeset_key(parse_formula(spec.rounded_sum(), symbols=("i",)), spec.show())
+        return typeset_key(parse_formula(spec.rounded_sum(), symbols=("i",)), spec.show_plain())
     return typeset_key(build_complex(spec.parts, spec.form))
 
 

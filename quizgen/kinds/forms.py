@@ -3,22 +3,29 @@
 from __future__ import annotations
 
 import re
+from abc import abstractmethod
 from collections.abc import Collection
-from typing import TYPE_CHECKING, TypeAlias
+from contextlib import suppress
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import msgspec
 from flint import fmpq
 
 from quizgen.core.decoding import convert
+from quizgen.core.errors import FormulaError
 from quizgen.grading.diagnosis.carry_forward import to_constant
 from quizgen.grading.judging.sampled_equality import values_agree
+from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.formulas import read_formula
 from quizgen.grading.reading.normalise import normalise_typed
 from quizgen.grading.reading.numbers import ReadNumber, read_number
 from quizgen.grading.reading.source_map import SourceText
+from quizgen.grading.reading.units import TypedUnit, listed_unit, part_joined_units, read_unit
 from quizgen.grading.rounding import format_key
 from quizgen.grading.spec import WordSpec
-from quizgen.kinds.asking import precision_on_paper, rounding_hint
+from quizgen.grading.verdict import HALF, Verdict, partial, wrong
+from quizgen.kinds.asking import precision_on_paper, rounding_hint, unit_hint
 from quizgen.kinds.contract import AuthoredAnswer, PartContext
 from quizgen.maths.complex_values import ComplexValue, evaluate_complex
 from quizgen.maths.constants import Scalar, parse_exact
@@ -27,6 +34,7 @@ from quizgen.maths.numbers import is_short_decimal
 from quizgen.maths.tidy import tidy_formula
 from quizgen.maths.tolerance import RULES, Tolerance
 from quizgen.maths.tree import Call, Expr, Num, Sym
+from quizgen.maths.units import UnitRegistry, build_unit_registry, format_unit
 from quizgen.maths.values import Value
 
 if TYPE_CHECKING:
@@ -35,6 +43,11 @@ if TYPE_CHECKING:
 EntryText: TypeAlias = str | list[str]
 """An entry of a key: a constant formula, or those of a real and an imaginary part."""
 IMAGINARY = ("i", "j")
+_UNIT_AFTER = re.compile(r"(?<=\d)([ij])(?=[^\W\d_])")
+_UNIT_WORD = re.compile(
+    r"(?<![^\W\d_])[^\W\d_]+(?:\^-?\d)?(?:(?:[/*·]| (?=[^\W\d_]))[^\W\d_]+(?:\^-?\d)?)*"
+)
+_NO_UNITS = frozenset({"i", "j", "e", "exp", "sqrt", "cos", "sin", "pi", "π", "deg", "rad"})
 _NUMBER = re.compile(r"-?\d+(?:/\d+|\.\d+)?")
 _FORM_WORDS = {"eq": "equation", "lt": "<", "le": "<=", "gt": ">", "ge": ">="}
 """Operator to its name, where that is not the word for it."""
@@ -86,21 +99,104 @@ class AuthoredEntries(AuthoredAnswer, kw_only=True, frozen=True):
     sigfigs: int | None = None
     rel: Scalar | None = None
     abs: Scalar | None = None
+    unit: str = ""
 
 
 class EntriesSpec(WordSpec, kw_only=True, frozen=True):
     """Fields of a key of several numbers, and how near each must be.
 
     Without a rule numbers with a short decimal form are exact, and others may be rounded.
+    ``unit`` is that of all numbers, ``define`` are units of the question's bank.
     """
 
     decimals: int | None = None
     sigfigs: int | None = None
     rel: Scalar | None = None
     abs: Scalar | None = None
+    unit: str = ""
+    define: tuple[str, ...] = ()
+
+    @abstractmethod
+    def judge_entries(self, typed: str, scale: Value, options: GradingOptions, /) -> Verdict:
+        """Return the verdict on what was typed without a unit; its numbers count times ``scale``.
+
+        Raises
+        ------
+        FormulaReadError
+            If it cannot be read.
+        """
+
+    def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
+        """Return the verdict on what was typed, with its unit if one is asked.
+
+        Raises
+        ------
+        FormulaReadError
+            If it cannot be read.
+        """
+        plain, unit = self.split_unit(typed)
+        wanted = listed_unit(self.unit)
+        if unit is not None and unit.dimension != wanted.dimension:
+            said = {"given": format_unit(unit.text), "asked": format_unit(self.unit)}
+            return wrong(typed, "unit-clash", **said)
+        scale = fmpq(1) if unit is None else unit.factor / wanted.factor
+        verdict = self.judge_entries(plain, scale, options)
+        if not self.unit or unit is not None or verdict.credit < 1:
+            return verdict
+        credit = max(HALF, 1 - HALF / (options.points or Fraction(1)))
+        return partial(credit, verdict.read_as, "unit-missing", unit=format_unit(self.unit))
+
+    def known_units(self) -> UnitRegistry:
+        """Return the units that may be typed: those listed, and those of the question's bank."""
+        return build_unit_registry(self.define)
+
+    def split_unit(self, typed: str) -> tuple[str, TypedUnit | None]:
+        """Return an answer without its unit, which may stand after each number, and the unit.
+
+        It is None if there is none, or none is asked.
+        """
+        if not self.unit:
+            return typed, None
+        powers = (
+            part_joined_units(typed.replace(r"\Omega", " Ω"), self.unit)
+            .replace("²", "^2")
+            .replace("³", "^3")
+        )
+        spaced = _UNIT_AFTER.sub(r"\1 ", drop_name(powers))
+        found = _UNIT_WORD.findall(spaced)
+        words = dict.fromkeys(one for word in found for one in _list_ends(word))
+        units = {word: unit for word in words if (unit := _find_unit(word))}
+        wanted = listed_unit(self.unit).dimension
+        ends = found and spaced.rstrip(" )]}$").endswith(found[-1])
+        last = _list_ends(found[-1]) if ends else []
+        for word in [*(w for w in units if units[w].dimension == wanted), *last]:
+            if word in units:
+                inside = rf"(?<![^\W\d_]){re.escape(word)}(?![^\W_])"
+                return re.sub(inside, " ", spaced).strip(), units[word]
+        return typed, None
+
+    def base_factor(self, unit: TypedUnit | None) -> Value:
+        """Return how many base units a typed number counts."""
+        return (unit or listed_unit(self.unit)).factor
+
+    def add_unit(self, shown: str) -> str:
+        """Return a printed key with its unit, if it has one."""
+        return f"{shown} {format_unit(self.unit)}" if self.unit else shown
+
+    def typeset_with_unit(self, key: TextOrInlines) -> TextOrInlines:
+        """Return a typeset key with its unit, if it has one."""
+        from quizgen.typeset.prose import PlainText, to_inlines
+
+        unit = f"\N{NO-BREAK SPACE}{format_unit(self.unit)}"
+        return (*to_inlines(key), PlainText(unit)) if self.unit else key
+
+    def hint_unit(self, lang: str) -> tuple[str, ...]:
+        """Return the sentence on the unit, if there is one."""
+        return (unit_hint(self.unit, lang),) if self.unit else ()
 
     def validate(self) -> None:
-        """Check the rule; errors as ``WordSpec.validate``."""
+        """Check the rule and the unit; errors as ``WordSpec.validate``."""
+        listed_unit(self.unit)
         if self.tolerance:
             self.tolerance.validate()
 
@@ -127,11 +223,46 @@ class EntriesSpec(WordSpec, kw_only=True, frozen=True):
         return precision_on_paper(rule, lang) if rule else ()
 
 
-def format_entry(expr: Expr) -> EntryText:
-    """Return an entry of a form as a key has it."""
+def _list_ends(words: str) -> list[str]:
+    """Return words, the same without the first, and so on: of ``k N m`` only two are the unit."""
+    parts = words.split(" ")
+    return [" ".join(parts[first:]) for first in range(len(parts))]
+
+
+def _find_unit(word: str) -> TypedUnit | None:
+    """Return the unit that a word is; None for a function, an imaginary unit or an angle."""
+    with suppress(FormulaError):
+        return None if word in _NO_UNITS else read_unit(word)
+    return None
+
+
+def find_unit(part: PartContext) -> dict[str, Any]:
+    """Return the fields of a specification for the unit that a part asks; empty if it asks none."""
+    if not part.answer.get("unit"):
+        return {}
+    return {"unit": part.answer["unit"], "define": list(part.defined_units)}
+
+
+def find_factor(part: PartContext) -> Value:
+    """Return how many base units the unit has that a part asks."""
+    with build_unit_registry(tuple(part.defined_units)).activate():
+        return listed_unit(part.answer.get("unit", "")).factor
+
+
+def format_entry(expr: Expr, factor: Value = fmpq(1)) -> EntryText:  # noqa: B008 - a constant
+    """Return an entry of a form as a key has it, in a unit of so many base units."""
+    if factor != 1 and not (isinstance(expr, Call) and expr.op == "complex"):
+        expr = tidy_formula(Call("div", (expr, to_constant(factor))))
     if isinstance(expr, Call) and expr.op == "complex":
-        return list(map(format_plain, expr.args))
+        return [str(format_entry(part, factor)) for part in expr.args]
     return format_plain(expr)
+
+
+def scale_entry(value: Value | ComplexValue, scale: Value) -> Value | ComplexValue:
+    """Return a typed number in another unit."""
+    if scale == 1:
+        return value
+    return (value[0] * scale, value[1] * scale) if isinstance(value, tuple) else value * scale
 
 
 def check_entry(entry: EntryText) -> None:
@@ -200,10 +331,18 @@ def read_any_entry(piece: str | SourceText, decimal: str, *, as_complex: bool) -
     if not as_complex:
         number = read_entry(piece, decimal)
         return TypedEntry(number.value, number.read_as)
-    text = piece if isinstance(piece, str) else piece.text
+    text = separate_unit(piece if isinstance(piece, str) else piece.text)
     tree = read_formula(text, IMAGINARY, decimal).tree
     value = evaluate_complex(tree, frozenset(IMAGINARY))
     return TypedEntry(value, pretty.format_formula(format_tree(tree)))
+
+
+_UNIT_FIRST = re.compile(r"(?<![^\W\d_])([ij]) ?(?=\d)")
+
+
+def separate_unit(typed: str) -> str:
+    """Return ``j40``, as engineers write it, as a product."""
+    return _UNIT_FIRST.sub(r"\1*", typed)
 
 
 def write_constant(value: Value | ComplexValue) -> Expr:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import msgspec
 
@@ -17,7 +17,7 @@ from quizgen.grading.reading.normalise import normalise_typed
 from quizgen.grading.reading.numbers import read_number
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.reading.written_intervals import write_interval
-from quizgen.grading.rounding import format_exact_or_figures
+from quizgen.grading.rounding import format_exact_or_figures, format_key
 from quizgen.grading.spec import NumericSpec
 from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
 from quizgen.kinds.asking import (
@@ -38,6 +38,7 @@ from quizgen.kinds.forms import format_plain, require_form
 from quizgen.locale import translate
 from quizgen.locale.word_patterns import WordPattern
 from quizgen.maths.notation import FormulaReadError, pretty
+from quizgen.maths.numbers import is_short_decimal
 from quizgen.maths.tree import Call, Expr, Num
 from quizgen.maths.values import Value
 
@@ -46,6 +47,7 @@ class AuthoredInterval(AuthoredMeasured, kw_only=True, tag="interval", frozen=Tr
     """From one number to another, or several such: as written here, or a set of the solver."""
 
     of: str = ""
+    brackets: Literal["", "any"] = ""
     value: str = ""
     traps: dict[str, str] = msgspec.field(default_factory=dict)
 
@@ -62,6 +64,7 @@ class IntervalSpec(NumericSpec, kw_only=True, frozen=True):
     written_as: ClassVar[AnswerForm] = "formula"
 
     value: str
+    brackets: Literal["", "any"] = ""
 
     def validate(self) -> None:
         """Check tolerance and the key's own notation; errors as ``WordSpec.validate``."""
@@ -79,7 +82,10 @@ class IntervalSpec(NumericSpec, kw_only=True, frozen=True):
         FormulaReadError
             If it cannot be read.
         """
-        pieces, read_as = read_union(typed.strip(" $"), options.decimal)
+        typed = typed.strip(" $")
+        if self.brackets:
+            typed = _RANGE.sub(r"[\1; \2]", typed) if _RANGE.fullmatch(typed) else typed
+        pieces, read_as = read_union(typed, options.decimal)
         for name, text in self.traps.items():
             if self._is_same_union(pieces, read_union(str(text), "point")[0]):
                 return wrong(read_as, f"trap:{name}")
@@ -97,7 +103,10 @@ class IntervalSpec(NumericSpec, kw_only=True, frozen=True):
         """Return whether a union has the key's pieces, with their bounds and brackets."""
         return len(pieces) == len(keys) and all(
             self._has_same_bounds(piece, key)
-            and (piece.closed_low, piece.closed_high) == (key.closed_low, key.closed_high)
+            and (
+                bool(self.brackets)
+                or (piece.closed_low, piece.closed_high) == (key.closed_low, key.closed_high)
+            )
             for piece, key in zip(pieces, keys, strict=True)
         )
 
@@ -117,6 +126,8 @@ class IntervalSpec(NumericSpec, kw_only=True, frozen=True):
         if not (low and high):
             note = "bound-left" if high else "bound-right" if low else "bounds"
             return wrong(read_as, note)
+        if self.brackets:
+            return correct(read_as)
         left = interval.closed_low == key.closed_low
         right = interval.closed_high == key.closed_high
         if left and right:
@@ -129,8 +140,16 @@ class IntervalSpec(NumericSpec, kw_only=True, frozen=True):
         return msgspec.structs.replace(self, value=_write_union(form), traps={})
 
     def show(self) -> str:
-        """Return the key as printed and as it can be typed back."""
-        return read_union(self.value, "point")[1]
+        """Return the key as printed and as it can be typed back, as far as is asked."""
+        pieces, written = read_union(self.value, "point")
+        return " ∪ ".join(_echo(piece, self._show_bound) for piece in pieces) or written
+
+    def _show_bound(self, value: Value) -> str:
+        """Return a bound with the decimals or figures asked; one that needs fewer as it is."""
+        asked = self.decimals is not None or self.sigfigs is not None
+        if asked and not is_short_decimal(value):
+            return format_key(self, value)
+        return _show_figures(value)
 
 
 class IntervalValue(msgspec.Struct, frozen=True):
@@ -142,6 +161,8 @@ class IntervalValue(msgspec.Struct, frozen=True):
     closed_high: bool
 
 
+_RANGE = re.compile(r"([-+−]?\d+(?:[.,]\d+)?) ?[-–—] ?(\d+(?:[.,]\d+)?)")
+"""An interval without brackets, where nobody asks whether its bounds belong to it."""
 _INFINITE = WordPattern(r"([-+]?) ?(?:∞|inf(?:inity)?|infty|oo|«wordings.infinity»)", re.IGNORECASE)
 _NAMED = re.compile(rf"{NAME} ?(?:∈|in(?= )) ?|{NAME} ?[=:] ?(?=[\[\](])")
 _WRAPPED = re.compile(r"[(\[{] ?[\[\](][^\[\](){}]+[\])\[] ?[)\]}]|\{[^{}]*\}")
@@ -270,10 +291,15 @@ def _parse_bound(source: SourceText, decimal: str, side: str) -> Value | None:
     return read_number(source, decimal).main.value
 
 
-def _echo(interval: IntervalValue) -> str:
+def _show_figures(value: Value) -> str:
+    """Return a bound as it was read."""
+    return format_exact_or_figures(value, 12)
+
+
+def _echo(interval: IntervalValue, show: Callable[[Value], str] = _show_figures) -> str:
     """Return an interval with outward brackets for bounds that do not belong to it."""
-    low = "-∞" if interval.low is None else format_exact_or_figures(interval.low, 12)
-    high = "∞" if interval.high is None else format_exact_or_figures(interval.high, 12)
+    low = "-∞" if interval.low is None else show(interval.low)
+    high = "∞" if interval.high is None else show(interval.high)
     low, high = pretty.format_number(low), pretty.format_number(high)
     return (
         f"{'[' if interval.closed_low else ']'}{low}; {high}{']' if interval.closed_high else '['}"

@@ -25,11 +25,14 @@ from quizgen.kinds.forms import (
     check_entry,
     drop_name,
     entry_matches,
+    find_factor,
+    find_unit,
     format_entry,
     parse_entry,
     read_any_entry,
     require_form,
     round_entry,
+    scale_entry,
     show_entry,
     typeset_key,
     write_constant,
@@ -75,9 +78,9 @@ class MatrixSpec(EntriesSpec, kw_only=True, frozen=True):
                 for entry in row:
                     check_entry(entry)
 
-    def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
-        """Judge a typed matrix."""
-        rows, read_as = self._read(typed, options)
+    def judge_entries(self, typed: str, scale: Value, options: GradingOptions, /) -> Verdict:
+        """Judge a typed matrix; errors as ``judge``."""
+        rows, read_as = self._read(typed, scale, options)
         if _is_same(rows, self.entries, self.tolerance):
             return correct(read_as)
         for name, entries in self.traps.items():
@@ -85,25 +88,33 @@ class MatrixSpec(EntriesSpec, kw_only=True, frozen=True):
                 return wrong(read_as, f"trap:{name}")
         return _diagnose(self, rows, read_as)
 
-    def _read(self, typed: str, options: GradingOptions) -> tuple[Rows, str]:
+    def _read(self, typed: str, scale: Value, options: GradingOptions) -> tuple[Rows, str]:
         """Return typed rows of values, and the echo; errors as ``judge``."""
         known = (self.entries, *self.traps.values())
         as_complex = any(isinstance(entry, list) for rows in known for row in rows for entry in row)
-        return _read_matrix(typed, options.decimal, as_complex=as_complex)
+        rows, read_as = _read_matrix(typed, options.decimal, as_complex=as_complex)
+        return [[scale_entry(value, scale) for value in row] for row in rows], read_as
 
     def read_form(self, typed: str, options: GradingOptions, /) -> Expr | None:
         """Return a typed matrix; None if its size is not that of the key; errors as ``judge``."""
-        rows, _ = self._read(typed, options)
+        plain, unit = self.split_unit(typed)
+        rows, _ = self._read(plain, self.base_factor(unit), options)
         if list(map(len, rows)) != list(map(len, self.entries)):
             return None
         return Call("matrix", tuple(Call("row", tuple(map(write_constant, row))) for row in rows))
 
     def replace_key(self, form: Expr, /) -> MatrixSpec:
         """Return the specification with another matrix as its key, and without mistakes."""
-        return msgspec.structs.replace(self, entries=_write_entries(form), traps={})
+        return msgspec.structs.replace(
+            self, entries=_write_entries(form, self.base_factor(None)), traps={}
+        )
 
     def show(self) -> str:
         """Return the key as it is printed, and as it can be typed back."""
+        return self.add_unit(self.show_plain())
+
+    def show_plain(self) -> str:
+        """Return the key without its unit."""
         rows = self.rounded_entries()
         return f"[{'; '.join(', '.join(map(show_entry, row)) for row in rows)}]"
 
@@ -175,35 +186,38 @@ def ask(part: PartContext) -> AskedPart[MatrixSpec]:
     traps = {name: _list_entries(part, form) for name, form in wrong_forms.items()}
     notes = part.misconception_notes(traps) if traps else {}
     entries = _list_entries(part, part.answer_form())
-    spec = make_spec(MatrixSpec, part, entries=entries, traps=traps, notes=notes)
+    spec = make_spec(
+        MatrixSpec, part, **{"entries": entries, "traps": traps, "notes": notes} | find_unit(part)
+    )
     control = InputControl("lines", lines=len(entries))
     return AskedPart(spec, control, mistakes=misconception_specs(spec, "entries"))
 
 
 def _list_entries(part: PartContext, form: Expr) -> Entries:
     """Return the entries of a form by row, as text; a vector is one column."""
-    return _write_entries(require_form(part, form, "matrix", "vector"))
+    return _write_entries(require_form(part, form, "matrix", "vector"), find_factor(part))
 
 
-def _write_entries(form: Expr) -> Entries:
+def _write_entries(form: Expr, factor: Value) -> Entries:
     """Return the entries of a matrix or vector as a key has them."""
     rows = form.args if isinstance(form, Call) else ()
     return [
-        [format_entry(x) for x in row.args]
+        [format_entry(x, factor) for x in row.args]
         if isinstance(row, Call) and row.op == "row"
-        else [format_entry(row)]
+        else [format_entry(row, factor)]
         for row in rows
     ]
 
 
 def explain_key(spec: MatrixSpec, _lang: str) -> TextOrInlines:
     """The matrix as it is written by hand."""
-    return typeset_key(build_matrix(spec.rounded_entries()), spec.show())
+    key = typeset_key(build_matrix(spec.rounded_entries()), spec.show_plain())
+    return spec.typeset_with_unit(key)
 
 
 def input_hints(spec: MatrixSpec, lang: str) -> tuple[TextOrInlines, ...]:
     """Return how a matrix is typed, and how exactly."""
-    return (*_HINT(spec, lang), *spec.hint_rounding(lang))
+    return (*_HINT(spec, lang), *spec.hint_unit(lang), *spec.hint_rounding(lang))
 
 
 def paper_hints(spec: MatrixSpec, lang: str) -> tuple[str, ...]:

@@ -23,7 +23,7 @@ from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.equalities import EqualitySide, read_typed_sides
 from quizgen.grading.reading.numbers import ReadNumber
 from quizgen.grading.reading.quantities import TypedQuantity, put_unit_behind
-from quizgen.grading.reading.units import TypedUnit, listed_unit
+from quizgen.grading.reading.units import TypedUnit, listed_unit, part_joined_units
 from quizgen.grading.rounding import format_key
 from quizgen.grading.spec import COUNTED, ScalarSpec, is_large_count
 from quizgen.grading.verdict import HALF, Verdict, attach_values, partial, wrong
@@ -121,7 +121,7 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
         FormulaReadError
             If it cannot be read.
         """
-        typed = put_unit_behind(typed, self.unit)
+        typed = put_unit_behind(part_joined_units(typed, self.unit), self.unit)
         found: list[Verdict] = []
         for text in self._list_spellings(typed):
             try:

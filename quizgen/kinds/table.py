@@ -71,6 +71,7 @@ class AuthoredTable(AuthoredNumeric, tag="table", frozen=True):
     """Numbers by their labels."""
 
     least, most = 2, MOST_OPTIONS
+    unit: str = ""
     counts: dict[str, str | tuple[str, ...]] = msgspec.field(default_factory=dict)
     cells: dict[str, dict[str, bool | Scalar]] = msgspec.field(default_factory=dict)
 

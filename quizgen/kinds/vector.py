@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from fractions import Fraction
 from typing import TYPE_CHECKING, ClassVar, Literal
@@ -28,12 +29,16 @@ from quizgen.kinds.forms import (
     EntryText,
     TypedEntry,
     check_entry,
+    drop_name,
     entry_matches,
+    find_factor,
+    find_unit,
     format_entry,
     parse_entry,
     read_any_entry,
     require_form,
     round_entry,
+    scale_entry,
     show_entry,
     typeset_key,
     write_constant,
@@ -77,10 +82,10 @@ class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
             for text in components:
                 check_entry(text)
 
-    def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
-        """Judge a typed vector."""
+    def judge_entries(self, typed: str, scale: Value, options: GradingOptions, /) -> Verdict:
+        """Judge a typed vector; errors as ``judge``."""
         numbers = self._read(typed, options)
-        values = [number.value for number in numbers]
+        values = [scale_entry(number.value, scale) for number in numbers]
         read_as = f"({'; '.join(number.read_as for number in numbers)})"
         if self._is_right(values, self.components):
             return correct(read_as)
@@ -97,7 +102,7 @@ class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
 
     def _read(self, typed: str, options: GradingOptions) -> list[TypedEntry]:
         """Return the typed components; errors as ``judge``."""
-        plain = typed.replace("\\\\", ";").replace("&", ";")
+        plain = _write_by_axes(typed).replace("\\\\", ";").replace("&", ";")
         pieces, _ = read_list(plain, len(self.components), options.decimal)
         known = (self.components, *self.traps.values())
         as_complex = any(isinstance(entry, list) for row in known for entry in row)
@@ -105,12 +110,16 @@ class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
 
     def read_form(self, typed: str, options: GradingOptions, /) -> Expr:
         """Return a typed vector; errors as ``judge``."""
-        values = [number.value for number in self._read(typed, options)]
+        plain, unit = self.split_unit(typed)
+        factor = self.base_factor(unit)
+        values = [scale_entry(number.value, factor) for number in self._read(plain, options)]
         return Call("vector", tuple(map(write_constant, values)))
 
     def replace_key(self, form: Expr, /) -> ColumnSpec:
         """Return the specification with another vector as its key, and without mistakes."""
-        return msgspec.structs.replace(self, components=_write_components(form), traps={})
+        return msgspec.structs.replace(
+            self, components=_write_components(form, self.base_factor(None)), traps={}
+        )
 
     def _is_right(self, values: list[Value | ComplexValue], components: list[EntryText]) -> bool:
         """Return whether a vector is the key, or a multiple of it if ``up_to`` is "scale"."""
@@ -127,11 +136,29 @@ class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as it is printed, and as it can be typed back."""
+        return self.add_unit(self.show_plain())
+
+    def show_plain(self) -> str:
+        """Return the key without its unit."""
         return f"({'; '.join(map(show_entry, self.rounded_components()))})"
 
     def rounded_components(self) -> list[EntryText]:
         """Return the components as far as they are asked."""
         return [round_entry(text, self.tolerance) for text in self.components]
+
+
+_TERM = re.compile(r"([-+−]?) ?(\d+(?:[.,]\d+)?)? ?[*·]? ?([ijk])\b ?")
+_AXES = "ijk"
+
+
+def _write_by_axes(typed: str) -> str:
+    """Return ``2i - 3k``, a sum along the axes, as its three components."""
+    text = re.sub(r"\\(?:hat|vec|mathbf) ?\{?([ijk])\}?", r"\1", drop_name(typed)).strip()
+    terms = [match.groups("") for match in _TERM.finditer(text)]
+    if "k" not in text or _TERM.sub("", text) or len({term[2] for term in terms}) < len(terms):
+        return typed
+    parts = {axis: f"{sign.replace('+', '')}{size or 1}" for sign, size, axis in terms}
+    return "; ".join(parts.get(axis, "0") for axis in _AXES)
 
 
 def build_vector(components: list[EntryText]) -> Expr:
@@ -163,27 +190,36 @@ def ask(part: PartContext) -> AskedPart[ColumnSpec]:
     traps = {name: _list_components(part, f) for name, f in part.misconception_forms().items()}
     notes = part.misconception_notes(traps) if traps else {}
     components = _list_components(part, part.answer_form())
-    spec = make_spec(ColumnSpec, part, components=components, traps=traps, notes=notes)
+    spec = make_spec(
+        ColumnSpec,
+        part,
+        **{"components": components, "traps": traps, "notes": notes} | find_unit(part),
+    )
     return AskedPart(spec, InputControl("line"), mistakes=misconception_specs(spec, "components"))
 
 
 def _list_components(part: PartContext, form: Expr) -> list[EntryText]:
     """Return the components of a form as text; a matrix of one row is a vector, too."""
-    return _write_components(require_form(part, form, "vector", "matrix"))
+    return _write_components(require_form(part, form, "vector", "matrix"), find_factor(part))
 
 
-def _write_components(form: Expr) -> list[EntryText]:
+def _write_components(form: Expr, factor: Value) -> list[EntryText]:
     """Return the components of a vector, or of a matrix of one row, as a key has them."""
     args = form.args if isinstance(form, Call) else ()
     if isinstance(form, Call) and form.op == "matrix":
         (row,) = args
         args = row.args if isinstance(row, Call) else ()
-    return [format_entry(arg) for arg in args]
+    return [format_entry(arg, factor) for arg in args]
 
 
 def input_hints(spec: ColumnSpec, lang: str) -> tuple[TextOrInlines, ...]:
     """Return how a vector is typed, and whether any multiple counts."""
-    return (*_HINT(spec, lang), *_hint_multiples(spec, lang), *spec.hint_rounding(lang))
+    return (
+        *_HINT(spec, lang),
+        *spec.hint_unit(lang),
+        *_hint_multiples(spec, lang),
+        *spec.hint_rounding(lang),
+    )
 
 
 def paper_hints(spec: ColumnSpec, lang: str) -> tuple[str, ...]:
@@ -198,7 +234,8 @@ def _hint_multiples(spec: ColumnSpec, lang: str) -> tuple[str, ...]:
 
 def explain_key(spec: ColumnSpec, _lang: str) -> TextOrInlines:
     """The vector as it is written by hand."""
-    return typeset_key(build_vector(spec.rounded_components()), spec.show())
+    key = typeset_key(build_vector(spec.rounded_components()), spec.show_plain())
+    return spec.typeset_with_unit(key)
 
 
 KIND = AnswerKind(AuthoredVector, ColumnSpec, ask, input_hints, explain_key, paper_hints)

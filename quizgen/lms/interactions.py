@@ -393,7 +393,7 @@ def _entry_interactions(
             rule = convert(spec.stated_rule() or default, Tolerance)
             precision = rounding_hint(rule, [entry], solved.lang) if spec.stated_rule() else ""
             ranges = disjoint_ranges(rule, key, wrong)
-            found.append(NumericInteraction(names[r][c], "", ranges, precision))
+            found.append(NumericInteraction(names[r][c], spec.unit, ranges, precision))
     return tuple(found)
 
 

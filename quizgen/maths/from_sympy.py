@@ -221,11 +221,21 @@ def _convert_piecewise(expression: sympy.Basic) -> Expr:
     """
     args: list[Expr] = []
     for value, condition in expression.args:
-        args.append(from_sympy(value))
+        args.append(_NOTHING if _has_no_end(value) else from_sympy(value))
         if isinstance(condition, BooleanTrue):
             return Call("piecewise", tuple(args)) if len(args) > 1 else args[0]
         args.append(from_sympy(condition))
     raise BankError(f"the last branch of {expression} must hold otherwise: end with (..., True)")
+
+
+_NOTHING = Call("div", (_ONE, Num(Fraction(0))))
+"""What has no value: a draw that leads there is thrown away."""
+
+
+def _has_no_end(value: sympy.Basic) -> bool:
+    """Return whether a value is an infinite sum that SymPy could not add up: it may diverge."""
+    sums = value.atoms(sympy.Sum, sympy.Product) if hasattr(value, "atoms") else ()
+    return any(bound.is_infinite for one in sums for limit in one.limits for bound in limit[1:])
 
 
 def _make_binder_converter(op: str) -> Callable[[sympy.Basic], Expr]:

@@ -23,6 +23,7 @@ import msgspec
 
 from quizgen.core.errors import BankError
 from quizgen.maths.chain import Chain, ChainStep
+from quizgen.maths.operators import UNEVALUATED
 from quizgen.maths.tree import names_in
 
 if TYPE_CHECKING:
@@ -44,6 +45,12 @@ def work_out(compute: Callable[[], T]) -> T:
         return compute()
 
 
+_CALLED_HERE = {"igcd": "gcd", "ilcm": "lcm", "divisor_count": "divisor_sigma"}
+"""Functions of SymPy to those of ours that say the same."""
+WAITING = UNEVALUATED | {*_CALLED_HERE}
+"""Functions of SymPy that need numbers, and get names where a solver is compiled."""
+
+
 def leave_symbolic(function: Callable[..., Any]) -> Callable[..., Any]:
     """Return one of SymPy's functions of numbers so that it waits for drawn ones.
 
@@ -56,7 +63,8 @@ def leave_symbolic(function: Callable[..., Any]) -> Callable[..., Any]:
     def call(*args: Any) -> Any:
         """Return the value, or the call as it is written if it has names in it."""
         if any(getattr(arg, "free_symbols", ()) for arg in args):
-            return Function({"igcd": "gcd", "ilcm": "lcm"}.get(name, name))(*args)
+            more = (0,) if name == "divisor_count" else ()
+            return Function(_CALLED_HERE.get(name, name))(*args, *more)
         return function(*args)
 
     waits = isinstance(module, str) and module.startswith("sympy.")
@@ -123,6 +131,7 @@ class Model:
 
         given = {symbol.name: unit for symbol, unit in self.given.items()}
         resolver = FormResolver(self.free)
+        _check_free(self.free, [*given, *map(_name_step, self.steps)])
         converted = _ConvertedSteps(self.traps)
         wrong = _group_misconceptions(self.traps)
         for step in self.steps:
@@ -227,6 +236,14 @@ def _convert_step(step: Step, resolver: FormResolver) -> tuple[ChainStep, bool]:
     except BankError as error:
         raise BankError(f"step {name!r}: {error}", rule="QG131", place=("Step", name)) from error
     return ChainStep(name, tree, step.unit, resolver.find_forms(step.expr)), is_form
+
+
+def _check_free(free: Iterable[str], taken: Iterable[str]) -> None:
+    """Raise ``BankError`` if a name without a value is that of a given quantity or a step, too."""
+    both = sorted({*free} & {*taken})
+    if both:
+        what = f"{both} stand in free, and have a value as given or as a step: take other letters"
+        raise BankError(what, rule="QG116", place=("Model", both[0]))
 
 
 def _check_forms(

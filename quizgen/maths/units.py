@@ -444,6 +444,7 @@ SHOWN = {
     **dict.fromkeys(("uohm", "µohm", "μohm"), "µΩ"),
     "deg": "°",
     "e-": "e⁻",
+    "*": "·",
 }
 """Names that are typed on any keyboard, and how they are printed."""
 

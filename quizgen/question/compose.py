@@ -6,6 +6,7 @@ only a ``Question`` cannot leak an answer.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any
@@ -63,6 +64,8 @@ class AnswerField(msgspec.Struct, frozen=True):
         Of an answer with one value: its letter if the question has it, and its unit.
     is_number : bool
         Whether the answer is made of numbers, which take less room than formulas and words.
+    has_power : bool
+        Whether one of them is so small or large that a power of ten shortens it.
     """
 
     id: str
@@ -75,6 +78,7 @@ class AnswerField(msgspec.Struct, frozen=True):
     on_paper: tuple[tuple[Inline, ...], ...] = ()
     box: InputBox = InputBox("")
     is_number: bool = False
+    has_power: bool = False
 
     @property
     def hints(self) -> tuple[str, ...]:
@@ -298,8 +302,18 @@ def _build_part(asked: LevelPart, lang: str, number: str) -> QuestionPart:
         on_paper=() if is_plain else tuple(map(to_inlines, kind.paper_hints(asked.spec, lang))),
         box=_build_box(asked),
         is_number=isinstance(asked.spec, NumericSpec),
+        has_power=_needs_power(asked.spec),
     )
     return QuestionPart(asked.label, asked.points, asked.body, field, asked.shared)
+
+
+_LONG = re.compile(r"·10[⁻⁰¹²³⁴-⁹]|(?<!\d)0\.000|\d{7}")
+"""In a printed key: what takes more cells than a box has, or a power of ten."""
+
+
+def _needs_power(spec: AnySpec) -> bool:
+    """Return whether a power of ten shortens a number of an answer."""
+    return isinstance(spec, NumericSpec) and _LONG.search(spec.show()) is not None
 
 
 def _build_box(asked: LevelPart) -> InputBox:

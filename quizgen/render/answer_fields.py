@@ -291,6 +291,7 @@ def _typeset_values(one: PaperPart) -> str:
     if not named and len(boxes) > 1:
         width = 32 if field.control.form == "gaps" else 18
     cells = f", cells: {_measure_cells(one, columns, width)}mm" if field.is_number else ""
+    cells += ", power: true" if field.has_power else ""
     return f"values({columns}, {width}mm, [{_join_hints(one)}]{cells}, {', '.join(rows)})"
 
 

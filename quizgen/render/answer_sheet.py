@@ -87,6 +87,10 @@ class SheetField(msgspec.Struct, frozen=True, omit_defaults=True):
     is_number: bool = False
 
 
+POWER = "^"
+"""Option of a field for the power of ten of the number before it."""
+
+
 class SheetPlaces(msgspec.Struct, frozen=True):
     """What a reader needs of a sheet: layout, pages, where marks, code and fields stand."""
 

@@ -13,6 +13,7 @@ from quizgen.paper.paper import Paper
 from quizgen.render.answer_sheet import (
     MARKS,
     PAPER_VERSION,
+    POWER,
     SIZE,
     SheetField,
     SheetPlaces,
@@ -29,8 +30,8 @@ CODE = (165.0, 4.8, 12.5)
 MOST_PAGES = 60
 STROKE = 0.8 / 72 * 25.4
 """Millimetres that the frame of a box is thick; half of it is outside."""
-KINDS = {"box": "box", "line": "line", "frame": "line", "number": "line", "room": "room",
-         "points": "points"}  # fmt: skip
+KINDS = {"box": "box", "line": "line", "frame": "line", "number": "line", "power": "line",
+         "room": "room", "points": "points"}  # fmt: skip
 """What a field is to a reader, by what the layout calls it."""
 LEAST = 1.0
 """Millimetres that room to work in is high at least."""
@@ -108,9 +109,10 @@ def _iter_fields(rows: Sequence[Sequence[Any]]) -> Iterator[SheetField]:
             whose, option = (number + what if what else part), ""
         if kind == "room" and h < LEAST:
             continue
-        more = STROKE / 2 if kind in {"box", "frame", "number"} else 0.0
+        option = POWER if kind == "power" else option
+        more = STROKE / 2 if kind in {"box", "frame", "number", "power"} else 0.0
         yield SheetField(
             page, whose, KINDS[kind],
             round(x - more, 2), round(y - more, 2), round(w + 2 * more, 2), round(h + 2 * more, 2),
-            option, kind == "number",
+            option, kind in {"number", "power"},
         )  # fmt: skip

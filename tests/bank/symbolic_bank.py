@@ -208,7 +208,7 @@ def write_question(folder: Path, name: str) -> None:
 
 def write_questions(folder: Path, solvers: Mapping[str, tuple[str, str, list[str]]]) -> Path:
     """Write a bank of questions: of each the model, its draws and what parts ask."""
-    (folder / "templates").mkdir()
+    (folder / "templates").mkdir(parents=True)
     (folder / "solvers").mkdir()
     (folder / "templates" / "bank.toml").write_text(BANK)
     for name, written in solvers.items():
@@ -234,7 +234,6 @@ def write_parts(folder: Path, name: str, model: str, draws: str, asked: list[str
     )
     stem += "".join(f"\n\n## {label}\nFind it." for label, _ in zip("abcdef", asked, strict=False))
     traps = "\n".join(f"- {trap}: Look again." for trap in re.findall(r'"(\w+)": Step', model))
-    steps = "\n".join(
-        f"- {of}: By the rules." for of in re.findall(r'of = "(\w+)"', "\n".join(asked))
-    )
+    names = re.findall(r"Step\(\"?(\w+)", model.split("traps=", maxsplit=1)[0])
+    steps = "\n".join(f"- {name}: By the rules." for name in dict.fromkeys(names))
     (home / "en.md").write_text(PROSE.format(title=name, stem=stem, steps=steps, traps=traps))

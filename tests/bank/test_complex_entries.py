@@ -32,6 +32,14 @@ MODEL = Model(
 """, 'R = { pick = [3], unit = "kohm" }\\nX = { pick = [4], unit = "kohm" }\\nU = { pick = [50], unit = "V" }',
         ['kind = "complex", of = "Z", unit = "kohm", form = "cartesian"',
          'kind = "complex", of = "i", unit = "mA", rel = "0.01"']),
+    "torque": ("""
+x, y, F, G = symbols("x y F G")
+MODEL = Model(
+    given={x: "m", y: "m", F: "kN", G: "kN"},
+    steps=(Step("M", Matrix([x, y, 0]).cross(Matrix([F, G, 0]))), Step("K", Matrix([[F, G]]))),
+)
+""", 'x = { pick = [2], unit = "m" }\\ny = { pick = [3], unit = "m" }\\nF = { pick = [5], unit = "kN" }\\nG = { pick = [7], unit = "kN" }',
+        ['kind = "vector", of = "M", unit = "N*m"', 'kind = "matrix", of = "K", unit = "kN"']),
     "wrong": ("""
 R, X = symbols("R X")
 MODEL = Model(given={R: "ohm", X: "ohm"}, steps=(Step("Z", R + X*I),))
@@ -67,6 +75,16 @@ def bank(tmp_path_factory):
     ("impedance", "b", "6 - 8i mA", ("correct", "")),
     ("impedance", "b", "10∠-53.13° mA", ("correct", "")),
     ("impedance", "b", "0.006 - 0.008i A", ("correct", "")),
+    ("torque", "a", "(0; 0; -1000) Nm", ("correct", "")),
+    ("torque", "a", "(0; 0; -1) kN m", ("correct", "")),
+    ("torque", "a", "(0; 0; 1000) N·m", ("wrong", "sign")),
+    ("torque", "a", "(0; 0; -1000)", ("partial", "unit-missing")),
+    ("torque", "a", "(0; 0; -1000) J/s", ("wrong", "unit-clash")),
+    ("torque", "a", "-1000k N m", ("correct", "")),
+    ("torque", "a", "0i + 0j - 1000 k Nm", ("correct", "")),
+    ("torque", "b", "[5, 7] kN", ("correct", "")),
+    ("entries", "a", "2, j3; 1 - j, 2 + j3", ("correct", "")),
+    ("torque", "b", "[5000 N, 7000 N]", ("correct", "")),
 ])  # fmt: skip
 def test_complex_answers(bank, name, part, typed, right):
     found = quizgen.mark_part(bank.template(name), typed, part=part)

@@ -22,8 +22,8 @@ PLAN = """
 [title]
 en = "Paper"
 [[slot]]
-templates = ["rods-cones-and-peaks", "exposure-equivalence", "complete-table-of-mixing", "sketch-barrel-or-pincushion"]
-count = 4
+templates = ["rods-cones-and-peaks", "exposure-equivalence", "complete-table-of-mixing", "sketch-barrel-or-pincushion", "weak-perspective-scale-error"]
+count = 5
 """
 pytestmark = pytest.mark.skipif(not shutil.which("pdftoppm"), reason="rasterises with poppler")
 
@@ -163,8 +163,8 @@ def test_working_without_an_answer_is_asked_and_a_number_proposed(
 ):
     folder = shutil.copytree(made_class, tmp_path / "class")
     fields = lines["7"]["sheet"]["fields"]
-    room = next(one for one in fields if one["kind"] == "room")
     pairs = [one for one in fields if one.get("option") and one.get("is_number")]
+    room = next(one for one in fields if one["kind"] == "room" and one["page"] != pairs[0]["page"])
     page, first = (blanks["7"][one["page"] - 1].copy() for one in (room, pairs[0]))
     Pen(3).write(page, room | {"h": 8.0, "x": room["x"] + 20}, "57-3")
     for one, sign in zip(pairs, "3124", strict=True):
@@ -180,6 +180,32 @@ def test_working_without_an_answer_is_asked_and_a_number_proposed(
     proposed = ", ".join(f"{one['option']}:{sign}" for one, sign in zip(pairs, "3124", strict=True))
     assert report["parts"][pairs[0]["part"]]["proposal"] == proposed
     assert f'data-proposal="{proposed}"' in (folder / "scans" / "scans.html").read_text("utf-8")
+
+
+def test_small_numbers_have_a_slot_for_a_power_of_ten_and_are_proposed_with_it(
+    made_class, lines, blanks, tmp_path
+):
+    """Student 8 asks for 1/2450 and 1/2550, student 7 for 1/192 and 1/208."""
+    slots = {
+        student: [one["part"] for one in line["sheet"]["fields"] if one.get("option") == "^"]
+        for student, line in lines.items()
+    }
+    assert slots == {"7": [], "8": ["2a", "2a", "2b"]}
+    folder = shutil.copytree(made_class, tmp_path / "class")
+    fields = [one for one in lines["8"]["sheet"]["fields"] if one["part"] in slots["8"]]
+    fields = [one for one in fields if one.get("is_number")]
+    page = blanks["8"][0].copy()
+    for one, text in zip(fields, ("4.08", "-4", "4.08", "-4", "4", ""), strict=True):
+        clear_pen(4).write_in_cells(page, one, text, round(one["w"] / 4))
+    save_scan(page, tmp_path / "a", "200")
+    run("class", "scan", folder, tmp_path / "a.jpg", "--jobs", 1)
+    report = json.loads((folder / "scans" / "report.json").read_text("utf-8"))["students"]["8"]
+    said = {part: report["parts"][part]["proposal"] for part in ("2a", "2b")}
+    assert said == {"2a": "4.08·10^-4; 4.08·10^-4", "2b": "4"}
+    (tmp_path / "in.csv").write_text(f"id,part,answer\n8,2a,{said['2a']}\n", "utf-8")
+    run("class", "scan", folder, tmp_path / "in.csv")
+    run("class", "mark", folder)
+    assert read_marks(folder)["8", "2a"] > 0, "one of both is right"
 
 
 def test_papers_are_either_scanned_themselves_or_have_sheets(made_class, tmp_path, capsys):

@@ -352,7 +352,7 @@ def test_a_matrix_has_one_pair_of_brackets():
     [
         ("s^2", "s²"),
         ("um^2/px", "µm²/px"),
-        ("kg*m^2/s^2", "kg*m²/s²"),
+        ("kg*m^2/s^2", "kg·m²/s²"),
         ("1/s^2", "s⁻²"),
         ("1/mm", "mm⁻¹"),
         ("m^-4", "m⁻⁴"),

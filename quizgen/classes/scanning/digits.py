@@ -74,6 +74,16 @@ def propose_number(page: NDArray[np.uint8], blank: NDArray[np.uint8], field: She
     return said if _NUMBER.fullmatch(said) else ""
 
 
+def has_ink(page: NDArray[np.uint8], blank: NDArray[np.uint8], field: SheetField) -> bool:
+    """Return whether anything is written in a field, be it a number or not."""
+    return _find_peak(cut_ink(page, blank, field)) >= FAINT
+
+
+def _find_peak(ink: NDArray[np.float32]) -> float:
+    """Return how dark the darkest ink is, but for a few pixels."""
+    return float(np.partition(ink.ravel(), -12)[-12])
+
+
 def cut_ink(
     page: NDArray[np.uint8], blank: NDArray[np.uint8], field: SheetField
 ) -> NDArray[np.float32]:
@@ -102,7 +112,7 @@ def part_signs(ink: NDArray[np.float32]) -> list[Sign]:
     """Return the signs in a field from left to right; none if they cannot be parted."""
     import cv2
 
-    peak = float(np.partition(ink.ravel(), -12)[-12])
+    peak = _find_peak(ink)
     if peak < FAINT:
         return []
     dark = (ink > max(FAINT * 0.8, HALF * peak)).astype(np.uint8)

@@ -54,8 +54,8 @@ LETTER_AT = (0.4, 5.0)
 """Millimetres right of a box between which its letter stands."""
 FEWEST_PIXELS, LONGEST_SPECK = 12, 5
 """Half pixels of ink beside all fields, and how long it is, that are no dirt."""
-WRITTEN = 5
-"""Half pixels of ink on a line that are no dirt."""
+WRITTEN = 2
+"""Half pixels of ink on a line that are no dirt; blank lines of simulated scans have none."""
 OVERHANG = 5
 """Half pixels that ink which is fast to the frame of an empty box may hang out."""
 

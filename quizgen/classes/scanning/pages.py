@@ -5,6 +5,7 @@ Pure: a job returns what was read and the pictures to keep, and writes nothing.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -16,7 +17,7 @@ import numpy as np
 
 from quizgen.classes.class_folder import PAPERS, SHEETS, ClassFolder
 from quizgen.classes.roster import RosterStudent
-from quizgen.classes.scanning.digits import propose_number
+from quizgen.classes.scanning.digits import has_ink, propose_number
 from quizgen.classes.scanning.ink import (
     CROSSED,
     DOUBTFUL,
@@ -52,7 +53,7 @@ from quizgen.classes.scanning.registration import (
 from quizgen.classes.sheet_codes import SheetIndex
 from quizgen.core.decoding import json_decoder
 from quizgen.core.errors import ClassError
-from quizgen.render.answer_sheet import PAPER_VERSION, SheetField, SheetPlaces
+from quizgen.render.answer_sheet import PAPER_VERSION, POWER, SheetField, SheetPlaces
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -437,10 +438,10 @@ class _SheetReader:
         fields = [one for one in self.fields if one.part == part and one.kind == "line"]
         if read.why != WRITTEN or not all(one.is_number for one in fields):
             return read
-        said = [propose_number(page, blank, one) for one in fields]
+        said = [*_iter_proposals(page, blank, fields)]
         if not all(said):
             return read
-        pairs = [one.option for one in fields]
+        pairs = [one.option for one in fields if one.option != POWER]
         joined = ", ".join(map(":".join, zip(pairs, said, strict=True)))
         made = joined if self.sheet.kinds[part] == "match" else "; ".join(said)
         return msgspec.structs.replace(read, proposal=made)
@@ -524,6 +525,24 @@ class _SheetReader:
                 yield part, PartReading(None, 0.0, *place, asked, "" if fault else answer)
             else:
                 yield part, PartReading(answer, sure, *place)
+
+
+def _iter_proposals(
+    page: NDArray[np.uint8], blank: NDArray[np.uint8], fields: Sequence[SheetField]
+) -> Iterator[str]:
+    """Yield what may be written as each number, empty if it reads badly; powers of ten with it."""
+    for field, after in zip(fields, (*fields[1:], None), strict=True):
+        if field.option == POWER:
+            continue
+        said = propose_number(page, blank, field)
+        if said and after is not None and after.option == POWER and has_ink(page, blank, after):
+            power = propose_number(page, blank, after)
+            said = f"{said}·10^{power}" if _WHOLE.fullmatch(power) else ""
+        yield said
+
+
+_WHOLE = re.compile(r"-?\d{1,2}")
+"""What stands in a field for a power of ten."""
 
 
 def _find_way(fields: Sequence[SheetField], kind: str) -> str:

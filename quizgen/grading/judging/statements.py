@@ -131,7 +131,6 @@ class _Vocabulary:
     ended: frozenset[tuple[str, ...]]
     conditions: frozenset[str]
     harmless: frozenset[tuple[str, ...]]
-    frames: tuple[tuple[str, ...], ...]
     that: frozenset[str]
     pointers: frozenset[str]
     speech: frozenset[str]
@@ -143,6 +142,7 @@ class _Vocabulary:
     helpers: frozenset[str]
     degrees: frozenset[str]
     fillers: frozenset[str]
+    grammar: frozenset[str]
     scales: Mapping[str, tuple[Scale, ...]]
     stems: tuple[tuple[str, Scale], ...]
     phrases: tuple[tuple[tuple[str, ...], Scale], ...]
@@ -182,7 +182,6 @@ def _vocabulary() -> _Vocabulary:
         frozenset(rows("ended")),
         words("conditions"),
         frozenset(rows("harmless")),
-        tuple(rows("frames")),
         words("that"),
         words("pointers"),
         words("speech"),
@@ -194,6 +193,7 @@ def _vocabulary() -> _Vocabulary:
         words("helpers"),
         words("degrees"),
         words("fillers"),
+        frozenset().union(*map(words, (*_OF_REMARKS, "helpers", "breaks"))),
         _group_scales(ends),
         tuple((fold_word(word[:-1]), end) for word, end in ends if word.endswith("-")),
         tuple((_fold_row(word), end) for word, end in ends if " " in word),
@@ -307,7 +307,7 @@ def is_form_of(word: str, wanted: str, *, slips: bool = True) -> bool:
         return True
     if _stems(word) & _stems(wanted):
         return True
-    if not slips:
+    if not slips or word in _vocabulary().grammar:
         return False
     return _is_slip(word, wanted) or any(
         len(stem) > SHORTEST + 1 and _is_slip(typed, stem)
@@ -716,7 +716,6 @@ class Statement:
         ]  # fmt: skip
         for clause in found:
             self._read_denials(clause)
-        self._spread_frames(found)
         self._spread_remarks(found)
         return found
 
@@ -794,27 +793,6 @@ class Statement:
         nearby = words[max(0, index - 3) : index]
         return words[index] != "not" or any(word in _vocabulary().helpers for word in nearby)
 
-    def _spread_frames(self, clauses: list[_Clause]) -> None:
-        """Deny all of a sentence that begins with ``it is not true that``."""
-        for index, clause in enumerate(clauses):
-            words = [self.tokens[at].text for at in clause.places]
-            framed = any(
-                tuple(words[at : at + len(row)]) == row
-                for row in _vocabulary().frames
-                for at in range(len(words))
-            )
-            if not framed:
-                continue
-            clause.denials, clause.whole = [], 0
-            mark = clause.places[-1]
-            for other in clauses[index:]:
-                if other.sentence == clause.sentence:
-                    other.denials.append(mark)
-                    other.whole += 1
-            if index and clauses[index - 1].sentence == clause.sentence and len(words) <= 5:
-                clauses[index - 1].denials.append(mark)
-                clauses[index - 1].whole += 1
-
     def _spread_remarks(self, clauses: list[_Clause]) -> None:
         """Doubt what a remark denies: *nobody would say that ...*, *..., which is wrong*.
 
@@ -825,6 +803,7 @@ class Statement:
         for index, clause in enumerate(clauses):
             begins = not index or clauses[index - 1].sentence != clause.sentence
             behind = self._count_remark(clauses, index) if begins else 0
+            clause.doubted |= index > 0 and clause.corrects
             if behind:
                 for other in clauses[index + behind - 1 :]:
                     other.doubted |= other.sentence == clause.sentence
@@ -838,7 +817,7 @@ class Statement:
                 of = clause.sentence
                 if not mine or (index < mine[0] and self._points_back(clause)):
                     of -= 1
-                clause.doubted = True
+                clause.doubted = index > 0
                 for other in clauses[:index]:
                     other.doubted |= other.sentence == of
 
@@ -1302,7 +1281,13 @@ class Statement:
         heads = clause.denials + clause.ahead
         if not example.denied or example.size > LONE or not heads:
             return False
-        return all(at > places[-1] + 1 for at in heads)
+        fillers = _vocabulary().fillers
+        return not any(
+            at <= places[-1] + 1  # where verbs come last, so does what denies them
+            or (at == clause.places[-1]
+                and all(self.tokens[one].text in fillers for one in range(places[-1] + 1, at)))
+            for at in heads
+        )  # fmt: skip
 
     def _has_degree(self, clause: _Clause, places: tuple[int, ...], example: Example) -> bool:
         """Return whether a word of low degree, such as ``less``, stands before one that is meant.

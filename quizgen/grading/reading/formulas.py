@@ -160,6 +160,7 @@ def read_formula(
     source = join_digit_groups(_right_side(source))
     if log:
         source = source.substitute(_BASELESS, lambda _: log)
+    source = _write_greek_names(source, declared)
     if _WORD.search(source.text):
         source = add_call_brackets(source.substitute(*_NAMES), declared)
     if _MARKED.search(source.text):
@@ -173,6 +174,31 @@ def read_formula(
         source = write_roots_and_logs(source, declared, decimal)
     _refuse_bare_log(source, declared)
     return _read_number_literals(source, declared, decimal)
+
+
+def _write_greek_names(source: SourceText, declared: frozenset[str]) -> SourceText:
+    """Return ``s1`` as ``sigma_1``, where no declared name begins with this Latin letter."""
+    aliases = _list_latin_aliases(declared)
+    if not aliases:
+        return source
+    return source.substitute(_INDEXED, lambda m: aliases.get(f"{m[1]}_{m[2]}", m[0]))
+
+
+@lru_cache(maxsize=256)
+def _list_latin_aliases(declared: frozenset[str]) -> dict[str, str]:
+    """Return each Latin letter with an index that can only mean one declared Greek name."""
+    letters = {name[:1] for name in declared if name.partition("_")[0] not in GREEK.values()}
+    indexed = [(*name.split("_", 1), name) for name in declared if name.count("_") == 1]
+    found = [
+        (f"{greek[0]}_{index}", name)
+        for greek, index, name in indexed
+        if greek in GREEK.values() and index.isdigit() and greek[0] not in letters
+    ]
+    meant = [alias for alias, _ in found]
+    return {alias: name for alias, name in found if meant.count(alias) == 1}
+
+
+_INDEXED = re.compile(r"(?<![^\W_])([a-z])_?(\d)(?![\w.,])")
 
 
 def _right_side(source: SourceText) -> SourceText:

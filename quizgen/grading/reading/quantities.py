@@ -67,7 +67,9 @@ def put_unit_behind(typed: str, asked: str) -> str:
     return f"{match[2]} {match[1]}" if alike else typed
 
 
-_UNIT_FIRST = re.compile(r"([^\W\d_]{1,12}(?:/[^\W\d_]{1,12})?|[%°])(?: ?: ?| )([-+−]?[\d.,]*\d)")
+_UNIT_FIRST = re.compile(
+    r"([^\W\d_]{1,12}(?:/[^\W\d_]{1,12})?|[%°€$£৳])(?: ?: ?| |(?<=[€$£৳]))([-+−]?[\d.,]*\d)"
+)
 
 
 def _move_bracket_to_unit(number: str, rest: str) -> tuple[str, str]:

@@ -211,6 +211,25 @@ def read_unit(text: str) -> TypedUnit:
     return _parse_typed_unit(active_units(), _MU.sub("µ", _INTO.sub(r"\1", text.strip())))
 
 
+def part_joined_units(typed: str, listed: str) -> str:
+    """Return an answer with ``Nm`` as ``N*m`` where a unit with that product, or like it, is asked.
+
+    Only products in the unit that is asked are looked for, and common ones of its kind; none that
+    is a unit itself.
+    """
+    wanted = listed_unit(listed).dimension
+    alike = [product for product in _COMMON if listed_unit(product).dimension == wanted]
+    for product in dict.fromkeys((*_PRODUCTS.findall(listed), *alike)):
+        joined = product.replace("*", "")
+        if joined not in active_units().simple:
+            pattern = rf"(?<![^\W\d_])([kMGmµcd]?){joined}(?![^\W_])"
+            typed = re.sub(rf"/ ?{pattern}", rf"/(\g<1>{product})", typed)
+            typed = re.sub(pattern, rf"\g<1>{product}", typed)
+    return typed
+
+
+_COMMON = ("N*m", "W*s", "V*s", "A*s", "V*A", "ohm*m", "N*s", "kg*m")
+_PRODUCTS = re.compile(r"[^\W\d_]+(?:\*[^\W\d_]+)+")
 _MU = WordPattern(r"^«micro» ?(?=[ms]$)")
 _INTO = WordPattern(r"^\(?«in» +([^()]+)\)?$")
 """The unit that a number is said to be in, ``(in degrees)``: no inch."""
@@ -240,6 +259,7 @@ def _parse_compound_unit(text: str) -> str:
     FormulaError
         If a name in it is not listed.
     """
+    text = _BELOW.sub(_divide_by_each, text)
     text = _BRACKETS.sub(r"\1", text)
     if (text[:1], text[-1:]) in {("(", ")"), ("[", "]")} and text.count(text[0]) == 1:
         text = text[1:-1]
@@ -249,6 +269,15 @@ def _parse_compound_unit(text: str) -> str:
     text = _SQUARED.sub(r"\1^2", text)
     pieces = _PART.findall(text)
     return "".join(piece if piece in "*/·" else _parse_unit_product(piece) for piece in pieces)
+
+
+_BELOW = re.compile(r"/ ?[(\[]([^()\[\]/]*[^()\[\]/\s][ *·][^()\[\]/]+)[)\]]")
+"""A product below the bar: ``J/(kg K)``."""
+
+
+def _divide_by_each(match: re.Match[str]) -> str:
+    """Return ``/kg/K`` for ``/(kg K)``."""
+    return "".join(f"/{part}" for part in re.split(r"[ *·]+", match[1].strip()))
 
 
 def _parse_unit_product(piece: str) -> str:

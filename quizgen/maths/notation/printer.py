@@ -168,8 +168,17 @@ def _format_interval(expr: Call, leaves: Leaves) -> tuple[str, int]:
 
 def _format_complex(expr: Call, leaves: Leaves) -> tuple[str, int]:
     """Return a complex number, ``a + b*i``, and how strongly it holds together."""
-    real, imaginary = (_format_at_level(part, PRODUCT, leaves) for part in expr.args)
-    return f"{real} + {imaginary}*i", SUM
+    real, imaginary = expr.args
+    minus = isinstance(imaginary, Call) and imaginary.op == "neg"
+    if isinstance(imaginary, Num) and imaginary.value < 0:
+        minus, imaginary = True, Num(-imaginary.value, imaginary.decimal)
+    elif isinstance(imaginary, Call) and minus:
+        imaginary = imaginary.args[0]
+    size = _format_at_level(imaginary, PRODUCT, leaves)
+    unit = "i" if size == "1" else f"{size}*i"
+    if isinstance(real, Num) and not real.value:
+        return (f"-{unit}" if minus else unit), PRODUCT
+    return f"{_format_at_level(real, SUM, leaves)} {'-' if minus else '+'} {unit}", SUM
 
 
 _WRITERS: dict[str, Callable[[Call, Leaves], tuple[str, int]]] = {

@@ -197,7 +197,10 @@ def gives_away(drawn: Variant, step: ChainStep, known: frozenset[str]) -> bool:
     right = applicable_branch(drawn, step.expr)
     bare = not isinstance(right, Call) and not names_in(step.expr) & known
     return (
-        bare or not strangers <= stated_quantities(drawn) or leaks_answer(drawn, step.name, right)
+        bare
+        or bool(strangers & drawn.lists.keys())
+        or not strangers <= stated_quantities(drawn)
+        or leaks_answer(drawn, step.name, right)
     )
 
 
