@@ -13,7 +13,12 @@ from quizgen.core.errors import FormulaError
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.likeness import list_ordinals, read_count
 from quizgen.grading.judging.spelling import fold_word
-from quizgen.grading.judging.wordings import find_wording_in, holds_wording, share_words
+from quizgen.grading.judging.wordings import (
+    find_wording_in,
+    holds_wording,
+    says_whole,
+    share_words,
+)
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, is_denied, says_otherwise
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, PICTURES, normalise_typed
@@ -327,8 +332,14 @@ def _find_option_by_truth(spec: ChoiceSpec, typed: str) -> list[int]:
     if not truth or leading.count(truth) != 1 or _ALTERNATIVE.search(typed):
         return []
     place = leading.index(truth) + 1
-    denied = says_otherwise(rest) and not read_truth(typed)
+    denied = _is_turned(spec, place, rest) if read_truth(typed) else says_otherwise(rest)
     return [place] if _find_wording(spec, typed) in {0, place} and not denied else []
+
+
+def _is_turned(spec: ChoiceSpec, place: int, rest: str) -> bool:
+    """Return whether all that an option says behind *Yes* or *No* is said with a denial."""
+    own = [texts[place - 1].partition(" ")[2] for texts in (spec.choices(), *spec.said)]
+    return is_denied(rest) and not any(map(is_denied, own)) and says_whole(rest, own)
 
 
 def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:

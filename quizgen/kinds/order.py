@@ -342,8 +342,10 @@ def _read_worded_steps(spec: OrderSpec, typed: str) -> list[str]:
     for between in _BETWEEN_STEPS:
         pieces = [_STEP_NUMBER.sub("", piece.strip()) for piece in between.split(text)]
         pieces = [piece for piece in pieces if piece]
+        if not 1 < len(pieces) <= len(labels):
+            continue
         places = [_find_worded_step(piece, labels, wordings) for piece in pieces]
-        if len(pieces) > 1 and all(places) and len({*places}) == len(places):
+        if all(places) and len({*places}) == len(places):
             return [labels[place - 1] for place in places]
     return []
 

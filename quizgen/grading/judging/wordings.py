@@ -183,10 +183,17 @@ _SIGN = re.compile(r"[=^(_<>+*/]|\w\.\w|[a-z][A-Z]|\d-?[A-Za-z]")
 _CLAUSE = re.compile(r"[:;,.](?= |$)")
 
 
-def _is_shared(said: Collection[str], wordings: Sequence[str]) -> bool:
-    """Return whether an answer is one word that several wordings have, and none is just that."""
-    split, said = [{*_split_words(one)} for one in wordings], {*said}
-    return len(said) == 1 and said not in split and sum(said <= one for one in split) > 1
+def _is_shared(said: Collection[str], wordings: Sequence[str], called: int = 0) -> bool:
+    """Return whether all words of an answer stand in several wordings, and it is none of them.
+
+    Without a wording that is ``called`` so this holds of single words only; what stands before a
+    bracket is all of a wording, *Gigabit Ethernet (1 Gbit/s)*.
+    """
+    split, told = [{*_split_words(one)} for one in wordings], {*said}
+    whole = {*_split_words(wordings[called - 1].partition("(")[0])} if called else set[str]()
+    if (len(told) > 1 and not called) or told in split or told == whole:
+        return False
+    return sum(told <= one for one in split) > 1
 
 
 def share_words(typed: str, wordings: Sequence[str]) -> bool:
@@ -260,7 +267,7 @@ def _find_by_name(typed: str, wordings: Sequence[str]) -> int:
         ],
     ):
         if len(found) == 1:
-            return 0 if _is_shared(said & known, wordings) else found[0]
+            return 0 if _is_shared(said & known, wordings, found[0]) else found[0]
     return 0
 
 

@@ -9,6 +9,7 @@ other words. Negation, ranges and alternatives never become a number: they stay 
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Iterator
 from fractions import Fraction
 from typing import Literal, NamedTuple, TypeAlias
@@ -699,7 +700,8 @@ def says_otherwise(text: str) -> bool:
 
 def is_denied(text: str) -> bool:
     """Whether a word says that something is not the answer."""
-    return _load_around_words().denying.search(text) is not None
+    composed = unicodedata.normalize("NFC", text)
+    return _load_around_words().denying.search(composed) is not None
 
 
 def is_range_of_shares(typed: str) -> bool:
