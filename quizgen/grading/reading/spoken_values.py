@@ -54,7 +54,7 @@ _LEADING = (
         rf"(.*\d.*){_START}«spoken.giving»:? ({_VALUE}(?: (?:[^\W\d]|[\u0980-\u09ff])+)?)",
         re.IGNORECASE,
     ),
-    re.compile(rf"([^=:]*(?:[^\W\d][^=:]*\d|\d[^=:]*[^\W\d])[^=:]*): ({_VALUE})"),
+    re.compile(rf"(?=[^=:;]*\d)(?=[^=:;]*[^\W\d])([^=:;]*): ({_VALUE})"),
     re.compile(rf"({_PLAIN}) ?(?:→|->|=>|⇒) ?({_VALUE})"),
     re.compile(rf"({_PLAIN} ?[<>] ?{_PLAIN}) ?(?:,|→|->|=>|⇒) ?(?:[\d+−*/ -]+= ?)?({_VALUE})"),
 )
