@@ -250,7 +250,7 @@ def list_given_lists(text: str) -> Iterator[str]:
         yield parted.removeprefix("; ")
 
 
-_BEHIND_COLON = re.compile(r"[^:]*\d[^:]*[^\W\d][^:]*: ([^:]*\d[^:]*)")
+_BEHIND_COLON = re.compile(r"(?=[^:\d]*\d[^:]*[^\W\d])[^:]*: ([^:]*\d[^:]*)")
 
 
 def read_share(typed: str) -> str:
