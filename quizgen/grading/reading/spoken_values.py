@@ -54,7 +54,7 @@ _LEADING = (
         rf"(.*\d.*){_START}«spoken.giving»:? ({_VALUE}(?: (?:[^\W\d]|[\u0980-\u09ff])+)?)",
         re.IGNORECASE,
     ),
-    re.compile(rf"([^=:;]*(?:[^\W\d][^=:;]*\d|\d[^=:;]*[^\W\d])[^=:;]*): ({_VALUE})"),
+    re.compile(rf"(?=[^=:;]*\d)(?=[^=:;]*[^\W\d])([^=:;]*): ({_VALUE})"),
     re.compile(rf"({_PLAIN}) ?(?:→|->|=>|⇒) ?({_VALUE})"),
     re.compile(rf"({_PLAIN} ?[<>] ?{_PLAIN}) ?(?:,|→|->|=>|⇒) ?(?:[\d+−*/ -]+= ?)?({_VALUE})"),
 )
@@ -250,7 +250,7 @@ def list_given_lists(text: str) -> Iterator[str]:
         yield parted.removeprefix("; ")
 
 
-_BEHIND_COLON = re.compile(r"[^:]*\d[^:]*[^\W\d][^:]*: ([^:]*\d[^:]*)")
+_BEHIND_COLON = re.compile(r"(?=[^:\d]*\d[^:]*[^\W\d])[^:]*: ([^:]*\d[^:]*)")
 
 
 def read_share(typed: str) -> str:
