@@ -149,13 +149,17 @@ class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
 
 _TERM = re.compile(r"([-+−]?) ?(\d+(?:[.,]\d+)?)? ?[*·]? ?([ijk])\b ?")
 _AXES = "ijk"
+LONGEST_SUM = 200
+"""Signs of a sum along the axes; no longer text is searched for one."""
 
 
 def _write_by_axes(typed: str) -> str:
     """Return ``2i - 3k``, a sum along the axes, as its three components."""
     text = re.sub(r"\\(?:hat|vec|mathbf) ?\{?([ijk])\}?", r"\1", drop_name(typed)).strip()
+    if "k" not in text or len(text) > LONGEST_SUM:
+        return typed
     terms = [match.groups("") for match in _TERM.finditer(text)]
-    if "k" not in text or _TERM.sub("", text) or len({term[2] for term in terms}) < len(terms):
+    if _TERM.sub("", text) or len({term[2] for term in terms}) < len(terms):
         return typed
     parts = {axis: f"{sign.replace('+', '')}{size or 1}" for sign, size, axis in terms}
     return "; ".join(parts.get(axis, "0") for axis in _AXES)
