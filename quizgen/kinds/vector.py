@@ -150,14 +150,14 @@ class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
 _TERM = re.compile(r"([-+−]?) ?(\d+(?:[.,]\d+)?)? ?[*·]? ?([ijk])\b ?")
 _AXES = "ijk"
 LONGEST_SUM = 200
-"""Characters of a sum along the axes; more take the expression too long, and nobody writes them."""
+"""Signs of a sum along the axes; no longer text is searched for one."""
 
 
 def _write_by_axes(typed: str) -> str:
     """Return ``2i - 3k``, a sum along the axes, as its three components."""
-    if "k" not in typed or len(typed) > LONGEST_SUM:
-        return typed
     text = re.sub(r"\\(?:hat|vec|mathbf) ?\{?([ijk])\}?", r"\1", drop_name(typed)).strip()
+    if "k" not in text or len(text) > LONGEST_SUM:
+        return typed
     terms = [match.groups("") for match in _TERM.finditer(text)]
     if _TERM.sub("", text) or len({term[2] for term in terms}) < len(terms):
         return typed
