@@ -12,6 +12,7 @@ from typing import Any, TypeAlias
 
 import msgspec
 
+from quizgen.core.decoding import convert
 from quizgen.core.errors import MathError
 from quizgen.maths.derivative import differentiate
 from quizgen.maths.tree import Call, Expr, substitute
@@ -116,7 +117,7 @@ class _WrittenUse(msgspec.Struct, array_like=True):
 def decode_recipe(written: WrittenForm) -> Recipe:
     """Return a recipe from JSON; raises as ``decode_form``."""
     try:
-        form, uses = msgspec.convert(written, tuple[Any, list[_WrittenUse]])
+        form, uses = convert(written, tuple[Any, list[_WrittenUse]])
     except msgspec.ValidationError as error:
         raise ValueError(f"no recipe of a step: {error}") from None
     if any(place < 0 for use in uses for place in use.entry):

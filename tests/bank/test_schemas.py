@@ -181,6 +181,7 @@ MADE = {
     "traps",
     "terms",
     "letters",
+    "names",
     "parts",
     "entries",
     "components",

@@ -184,6 +184,7 @@ def _is_word(word: str) -> bool:
     return word[:1].isalpha() and not any(map(str.isdigit, word))
 
 
+@partial(cache_words, most=4096)
 def read_count(word: str) -> int:
     """Return the whole number that a word is or says; -1 if it is none."""
     if word.isdecimal():
@@ -202,10 +203,16 @@ def _says_the_same(word: str, other: str) -> bool:
         return True
     if len(word) >= BEGINNING and other.startswith(word) and _is_word(word):
         return True
-    return any(
-        any(_is_same_word(word, one) for one in group)
-        and any(_is_same_word(other, one) for one in group)
-        for group in _load_groups()
+    return not _find_groups(word).isdisjoint(_find_groups(other))
+
+
+@partial(cache_words, most=16384)
+def _find_groups(word: str) -> frozenset[int]:
+    """Return the places of the groups of equal words in which a word is."""
+    return frozenset(
+        place
+        for place, group in enumerate(_load_groups())
+        if any(_is_same_word(word, one) for one in group)
     )
 
 
