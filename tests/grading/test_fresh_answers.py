@@ -164,6 +164,7 @@ ACCEPTED_BY_RULE: dict[tuple[str, str], str] = {
     ("field-of-view.a", "40.2°"): _LAST_PLACE,
     ("field-of-view.a", "40.4°"): _LAST_PLACE,
     ("price-abroad.a", "175.45"): _LAST_PLACE,
+    ("hyperfocal-distance.b", "from H/3"): "words that only one option has are that option",
     ("true-or-false-colour.a", "2"): "statements are numbered as options are: 2 is false",
 }
 #: What gets full marks and should not, with the reason why that is let be.

@@ -33,6 +33,8 @@ MOST_WORDS = 20
 """Words of an answer that is more than an option in own words."""
 LONG = 8
 """Letters of a word that tells a wording by itself."""
+FEW = 3
+"""Words of an answer that is one term: another one in it makes it another term, *dead pixels*."""
 LEAST = 3
 """Letters of a word that may have other forms."""
 BEGINNING = 4
@@ -246,22 +248,33 @@ def _is_enough(
 ) -> bool:
     """Return whether an answer tells enough of a wording, and little that is not of it.
 
-    One short word is enough only for half of a wording, or where each of several is named.
+    One short word is enough only for half of a wording, or where each of several is named. A digit
+    beside other words may be the number of an option, and *pixels* are no *hot pixels*.
     """
-    if len(strangers) > len(telling) + 1:
+    digits = strangers and all(word.isdecimal() for word in telling)
+    if digits or len(strangers) > len(telling) + 1:
         return False
     if not strangers and all(read_count(word) >= 0 for word in telling):
         return True
     worded = [word for word in telling if _is_word(word) and read_count(word) < 0]
-    longest = max(
-        (len(one) for word in worded for one in (word, *find_translation(word))), default=0
-    )
-    if all_named or len(worded) > 1 or longest >= LONG:
+    lengths = [
+        max(map(len, () if word.isascii() else find_translation(word)), default=len(word))
+        for word in worded
+    ]
+    longest = max(lengths, default=0)
+    if all_named or longest >= LONG:
+        return True
+    others = [word for word in strangers if not _find_ends(word)]
+    if others and len(telling) + len(others) <= FEW:
+        return False
+    if len(worded) > 1:
         return True
     fillers = list_clause_words("fillers")
     rest = [[word for word in words if word not in fillers] for words in meant]
     return any(
-        2 * len(worded) >= len(words) or all(read_count(word) >= 0 for word in words)
+        2 * len(worded) > len(words)
+        or (worded and 2 * len(worded) == len(words) and not _says_the_same(worded[0], words[-1]))
+        or all(read_count(word) >= 0 for word in words)
         for words in rest
     )
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 
+from quizgen.grading.reading.normalise import LONGEST
 from quizgen.locale.word_patterns import WordPattern
 
 _NAME = r"(?!inf|oo)[^\W\d_]\w*"
@@ -48,8 +49,10 @@ _IN_WORDS = WordPattern(
 def write_interval(typed: str) -> str:
     """Return an interval in words, or of two conditions, as a chain or in brackets.
 
-    Anything else is returned as it is.
+    Anything else is returned as it is, and so is what is too long to be read as numbers.
     """
+    if len(typed) > LONGEST:
+        return typed
     text = re.sub(r"= ?<|< =", "<=", re.sub(r"> =", ">=", typed.strip()))
     text = _BEHIND.sub("", text)
     builder = _BUILDER.fullmatch(text)
