@@ -28,7 +28,7 @@ pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(not shutil.which("pdftoppm"), reason="rasterises with poppler"),
 ]
-STUDENTS = {"--sheet": draws(6, full=60), "--scan": draws(2, full=15)}
+STUDENTS = {"--sheet": draws(4, full=60), "--scan": draws(2, full=15)}
 FULL = IS_FULL
 FOLDERS = {"--sheet": "sheets", "--scan": "papers"}
 FLAT = ("300", "200", "150", "150", "skew", "upside down", "stain", "punch", "staple")

@@ -32,7 +32,7 @@ def test_every_template_is_clean(name):
 @pytest.mark.slow
 @together("name", BANK.template_paths)
 def test_every_template_is_clean_in_many_draws(name):
-    assert not lint_template(BANK.template(name), draws(200, full=1000), BANK.languages).problems
+    assert not lint_template(BANK.template(name), draws(80, full=1000), BANK.languages).problems
 
 
 def values(name, seed):
