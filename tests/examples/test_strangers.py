@@ -284,7 +284,7 @@ ANSWERS: dict[str, Callable[[Any], list[Any]]] = {
     "angle-between-vectors": between_vectors,
     "antiderivative": antiderivative,
     "arrow-at-an-angle": arrow,
-    "binary-sum": lambda v: [f"{int(f'{v.a:.0f}', 2) + int(f'{v.b:.0f}', 2):b}"],
+    "binary-sum": lambda v: [f"{int(v.a) + int(v.b):b}"],
     "centroid": lambda v: [f"{v.a / 3:g},{v.b / 3:g} {v.a / 3 + 0.1:g},{v.b / 3 + 0.1:g}"],
     "cholesky": cholesky,
     "common-factor": lambda v: [

@@ -31,7 +31,10 @@ def _iter_factors(tree: Expr) -> Iterator[Expr]:
 
 
 def _is_irreducible(factor: Expr) -> bool:
-    """Whether a sum cannot be written as a product; of functions only that it is none."""
+    """Whether a sum cannot be written as a product; of functions only that it is none.
+
+    A whole number that all its terms have is a factor, too: ``2x + 2`` is not finished.
+    """
     if not isinstance(factor, Call) or factor.op not in _SUMS:
         return True
     if not is_rational(factor):
@@ -41,8 +44,7 @@ def _is_irreducible(factor: Expr) -> bool:
         content, factors = top.factor()
     except (ValueError, ZeroDivisionError):
         return True
-    del content
-    return sum(int(power) for _, power in factors) <= 1
+    return abs(content.numer()) == 1 and sum(int(power) for _, power in factors) <= 1
 
 
 def _multiplies_sums(node: Expr) -> bool:

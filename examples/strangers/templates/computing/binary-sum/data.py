@@ -1,4 +1,4 @@
-"""Two binary numbers, their sum, and what comes out where carries are lost."""
+"""Two numbers, as they are written in binary, and what comes out where carries are lost."""
 
 
 def draw(rng):
@@ -6,6 +6,4 @@ def draw(rng):
     lost, longest = a ^ b, a | b
     if len({a + b, lost, longest}) < 3:
         return None
-    return {
-        name: f"{n:b}" for name, n in {"a": a, "b": b, "s": a + b, "w": lost, "o": longest}.items()
-    }
+    return {"a": a, "b": b, "w": lost, "o": longest, "p": f"{a:b}", "q": f"{b:b}"}
