@@ -20,6 +20,7 @@ from quizgen.grading.reading.count_nouns import (
     count_noun_name,
     count_noun_unit,
     drop_count_noun,
+    drop_count_nouns,
 )
 from quizgen.grading.reading.equalities import EqualitySide, read_sides
 from quizgen.grading.reading.factor_words import read_factor
@@ -199,7 +200,8 @@ def _judge_share(spec: NumberSpec, number: ReadNumber, options: GradingOptions) 
     share = percent_to_fraction(number)
     verdict = _judge_as(spec, share, share.value, options)
     plain = replace(number, percent=False)
-    if spec.counts or (not verdict.credit and _judge_as(spec, plain, plain.value, options).credit):
+    counted = spec.counts and abs(parse_exact(spec.value)) >= 1
+    if counted or (not verdict.credit and _judge_as(spec, plain, plain.value, options).credit):
         return unreadable("percent-not-asked", number.read_as)
     return verdict
 
@@ -251,7 +253,7 @@ def _read(spec: NumberSpec, source: SourceText, options: GradingOptions) -> list
     FormulaReadError
         If it cannot be read.
     """
-    source = drop_count_noun(source, spec.counts)
+    source = drop_count_nouns(drop_count_noun(source, spec.counts), spec.counts)
     if found := _with_remark(source, options):
         return found
     try:

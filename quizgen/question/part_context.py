@@ -25,7 +25,7 @@ from quizgen.kinds.contract import (
     asked_quantities,
 )
 from quizgen.locale import localise_numbers
-from quizgen.locale.word_patterns import set_of_words
+from quizgen.locale.word_patterns import WordPattern, set_of_words
 from quizgen.maths.numbers import (
     format_exact,
     format_rounded,
@@ -47,6 +47,16 @@ _WORD = r"(?:[a-zäöüß-]{3,}|[\u0980-\u09ff]{3,})"
 _LAST_WORDS = re.compile(
     rf"((?:{_WORD} ){{0,2}}(?:[a-zäöüß-]{{4,}}|[\u0980-\u09ff]{{3,}})) \(?$", re.IGNORECASE
 )
+_WORDS_BEHIND = WordPattern(
+    r" «behind-name» (?P<words>(?:[^\W\d_]+ ){0,2}[^\W\d_]{3,})(?=[,.:;?]|$| «and»)", re.IGNORECASE
+)
+"""Of what a value is: ``$r$ in the dark part``."""
+_ASKED_NOUN = WordPattern(
+    r"(?<![^\W\d_])«how-many» (?!«percent»|«factors.signs»)(?:«of» (?:«articles» )?)?"
+    r"(?P<both>(?P<noun>[^\W\d_]{3,})(?: [^\W\d_]{3,})?)",
+    re.IGNORECASE,
+)
+"""What is counted: ``how many photons of the scene``."""
 _NUMBERED = re.compile(r"\((\d)\) ?([^,;.?()]+)")
 """A number in a question with the words behind it."""
 _UNFILLED = re.compile(r"\{\{[^{}]*\}\}")
@@ -119,7 +129,7 @@ class VariantPart(PartContext):
 
         An author may list the words, for the answer or for each of its components. Otherwise they
         follow from the unit, if all that is asked for is shown in one; a table or an answer with a
-        unit of its own has no such word.
+        unit of its own has no such word. Of a plain number they are what the question counts.
         """
         stated = self.answer.get("counts")
         if isinstance(stated, Mapping):
@@ -128,8 +138,18 @@ class VariantPart(PartContext):
         units = {self.units.get(name, "") for name in names} - {"", "1"}
         several = self.answer["kind"] == "table" or "unit" in self.answer or len(units) != 1
         if stated is None and several:
-            return {}
+            asked = self.answer["kind"] == "number" and not units and self._asked_nouns()
+            return {"counts": asked} if asked else {}
         return {"counts": self._nouns(stated or [*units])}
+
+    def _asked_nouns(self) -> list[str]:
+        """Return what the question itself counts, *photons* in "how many photons", by language."""
+        label, found = self.drawn.template.labels[self.index], list[str]()
+        for text in self.drawn.template.texts.values():
+            pieces = leaves(text.sections.get(label, ()) if label else text.stem)
+            for asked in _ASKED_NOUN.finditer("".join(map(_write_plainly, pieces))):
+                found += [asked["both"], asked["noun"]]
+        return list(dict.fromkeys(found))
 
     def _nouns(self, things: str | list[str]) -> list[str]:
         """Return listed units as they are, and the bank's words for whatever else is counted.
@@ -244,8 +264,9 @@ class VariantPart(PartContext):
     def value_words(self, names: Mapping[str, str]) -> dict[str, list[str]]:
         """Return what the question calls each value, in every language.
 
-        That are the words before its name (*largest value* in "what is the largest value $M$"), or
-        the phrase that is drawn behind it ("$n_1$: a raw image"). Words that two values share bind
+        That are the words before its name (*largest value* in "what is the largest value $M$"), of
+        what it is behind it ("$r$ in the dark part"), or the phrase that is drawn there ("$n_1$: a
+        raw image"). Words that two values share bind
         neither.
         """
         found: dict[str, list[str]] = {name: [] for name in names}
@@ -271,6 +292,8 @@ class VariantPart(PartContext):
                 continue
             if isinstance(before, PlainText) and (word := _LAST_WORDS.search(before.text)):
                 yield name, word[1].lower()
+            if isinstance(after, PlainText) and (word := _WORDS_BEHIND.match(after.text)):
+                yield name, word["words"].lower()
             elif drawn and isinstance(after, PlainText) and after.text == ": ":
                 yield name, inlines_to_text(Interpolator(self.drawn, lang).sentence("words", drawn))
 

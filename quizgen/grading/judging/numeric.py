@@ -142,7 +142,8 @@ def judge_value(
     """Return the verdict on a value that stands in the key's unit.
 
     The order matters: what is right comes before a known mistake, an error carried forward before
-    a misconception, and a guess at a slip last.
+    a misconception, and a guess at a slip last. Of a mistake that is the same number once both are
+    rounded as typed nothing can be known: then the key was rounded too far.
 
     Parameters
     ----------
@@ -165,11 +166,10 @@ def judge_value(
     if carried is not None:
         return replace(carried, read_as=read_as)
     trap = matching_misconception(asked.spec, number, value, asked.traps, asked.key)
-    if trap:
+    coarse = _judge_coarse_rounding(asked.spec, number, value, asked.key, read_as)
+    if trap and not (coarse and coarse.credit and value != dict(asked.traps)[trap]):
         return wrong(read_as, f"trap:{trap}")
-    return _judge_coarse_rounding(
-        asked.spec, number, value, asked.key, read_as
-    ) or _diagnose_wrong_value(asked, number, value, read_as)
+    return coarse or _diagnose_wrong_value(asked, number, value, read_as)
 
 
 def _is_near_printed(spec: Tolerance, number: ReadNumber, value: Value, key: Value) -> bool:

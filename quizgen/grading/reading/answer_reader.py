@@ -163,7 +163,7 @@ def _load_around_words() -> _AroundWords:
             re.IGNORECASE,
         ),
         re.compile(
-            rf",? (?:{listed['rounded']})(?: (?:{listed['onto']}))?:? (?=[-+−]?[.,]?\d)",
+            rf",? (?:(?:->|→|=>|⇒) )?(?:{listed['rounded']})(?: (?:{listed['onto']}))?:? (?=[-+−]?[.,]?\d)",
             re.IGNORECASE,
         ),
         re.compile(

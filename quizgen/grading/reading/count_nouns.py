@@ -45,6 +45,15 @@ def drop_count_noun(source: SourceText, words: Iterable[str]) -> SourceText:
     return source.slice(0, noun.start()) if noun and meant else source
 
 
+def drop_count_nouns(source: SourceText, words: Iterable[str]) -> SourceText:
+    """Return a chain without the words for what is counted: ``4.17 -> level 4``."""
+    named = tuple(word for word in words if word not in active_units().simple)
+    if not named:
+        return source
+    behind, before = _build_chain_patterns(named)
+    return source.substitute(behind, lambda _m: "").substitute(before, lambda m: m[1])
+
+
 _NOUN = re.compile(r"(?<=\d) ([^\W\d_]{3,})$")
 
 
@@ -63,8 +72,21 @@ def count_noun_name(words: list[str], lang: str) -> str:
 @lru_cache(maxsize=256)
 def _build_count_noun_patterns(words: tuple[str, ...]) -> tuple[re.Pattern[str], re.Pattern[str]]:
     """Return the patterns of the words behind and before a number, cached for each question."""
-    longest_first = sorted(words, key=len, reverse=True)
-    spelt = (re.escape(unicodedata.normalize("NFC", word)) for word in longest_first)
-    listed = "|".join(spelt).replace("/", "/ ?")
+    listed = _list_alternatives(words)
     behind = re.compile(rf"(?<=[\d)%]) ?(?:{listed})$", re.IGNORECASE)
     return behind, re.compile(rf"(?:{listed}) ?(?=[-+]?[\d(])", re.IGNORECASE)
+
+
+@lru_cache(maxsize=256)
+def _build_chain_patterns(words: tuple[str, ...]) -> tuple[re.Pattern[str], re.Pattern[str]]:
+    """Return the patterns of the words on a side of a chain, cached for each question."""
+    listed = _list_alternatives(words)
+    behind = re.compile(rf"(?<=[\d)%]) ?(?:{listed})(?= *(?:[=≈→⇒]|->|$))", re.IGNORECASE)
+    return behind, re.compile(rf"([=≈→⇒>] ?)(?:{listed}) ?(?=[-+]?[\d(])", re.IGNORECASE)
+
+
+def _list_alternatives(words: tuple[str, ...]) -> str:
+    """Return words as alternatives of a pattern: a longer one is tried first."""
+    longest_first = sorted(words, key=len, reverse=True)
+    spelt = (re.escape(unicodedata.normalize("NFC", word)) for word in longest_first)
+    return "|".join(spelt).replace("/", "/ ?")

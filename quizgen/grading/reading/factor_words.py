@@ -15,13 +15,14 @@ _BEFORE = WordPattern(
 )
 _NUMBER = r"(?P<number>\d+(?:[.,]\d+)?(?: ?/ ?\d+)?)"
 _FACTOR = WordPattern(
-    rf"{_NUMBER}(?: ?[-x×]?|[- ](?=[^\W\d]))(?P<sign>«factors.signs»|x|×)?"
+    rf"{_NUMBER}(?: ?-?|[- ](?=[^\W\d]))(?P<sign>«factors.signs»|x|×)?"
     r"(?P<rest>(?: .+)?)",
     re.IGNORECASE,
 )
 
 
 _DASH_BETWEEN = re.compile("(?<=[\u0980-\u09ff])[-‐-–](?=[\u0980-\u09ff])")
+_HALF_AS = WordPattern(r"^(?:«factors.subjects» (?:«factors.verbs» )?)?«factors.half-as» \S")
 _ONE_SHARE = WordPattern(r"^«numbers.a» ")
 _PART_OF = WordPattern(r"(\d+ ?/ ?\d+) «of» «articles» [^\W\d_]+(?: [^\W\d_]+)?")
 """A share of something: ``1/24 of the size``."""
@@ -57,6 +58,8 @@ def read_factor(typed: str) -> str:
     but in which direction is.
     """
     text = _DASH_BETWEEN.sub(" ", " ".join(typed.split()).strip(" .!").casefold())
+    if _HALF_AS.match(text):
+        return "1/2"
     share = _list_shares().get(text) or _list_shares().get(_ONE_SHARE.sub("", text))
     if share:
         return share

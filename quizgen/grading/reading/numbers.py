@@ -165,6 +165,10 @@ def _make_quotient_number(sign: str, top: str, bottom: str) -> ReadNumber:
     return ReadNumber(-value if sign else value, read_as, "fraction", lowest=lowest)
 
 
+_OF_DEGREES = re.compile(r"(?<![^\W\d_])(sin|cos|tan|cot)(?: ?\( ?| )([-+]?\d+(?:\.\d+)?) ?°(?: ?\))?")
+"""A function of an angle in degrees, ``cos(30°)``."""
+
+
 def read_number(source: SourceText, decimal: str) -> Readings:
     """Return the readings of a number whose text has been normalised already.
 
@@ -176,6 +180,7 @@ def read_number(source: SourceText, decimal: str) -> Readings:
     found = read_plain_number(source.text, decimal)
     if found:
         return found
+    source = source.substitute(_OF_DEGREES, lambda m: f"{m[1]}({m[2]}*pi/180)")
     try:
         main, other, doubt = with_decimal_points(join_digit_groups(source), decimal)
         return Readings(
