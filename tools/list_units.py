@@ -21,7 +21,9 @@ a bank needs beyond these it [defines](banks.md#units-of-a-bank).
 """
 TAIL = """
 °C, °F, currencies and what is counted (pixels, electrons, stops, ...) are kinds of their own:
-nobody adds them to others without knowing a zero or a rate.
+nobody adds them to others without knowing a zero or a rate. What is said in °C and computed in K
+is drawn twice: `t = { range = [20, 80, 5], unit = "°C" }`, then
+`T = { is = "t + 273.15", unit = "K" }`.
 
 Next: [Figures](figures.md)
 """

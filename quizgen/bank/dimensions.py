@@ -34,6 +34,8 @@ _ALIKE = frozenset({"add", "sub", "min", "max", "mod", "atan2", "eq", "ne", "lt"
 """Operators whose arguments are of one kind."""
 _KEPT = frozenset({"add", "sub", "min", "max", "mod", "neg", "abs", "floor", "ceil", "round"})
 """Operators that give what they get."""
+_LONGEST_FORMULA = 200
+"""Most letters of a formula in a message."""
 _TRIGONOMETRIC = frozenset({"sin", "cos", "tan"})
 _INVERSE = frozenset({"asin", "acos", "atan", "atan2"})
 _NUMBERS = frozenset({"exp", "ln", "log2", "log10", "asin", "acos", "atan", "erf", "erfc"})
@@ -157,7 +159,10 @@ def _check_step(
     units: UnitRegistry, step: ChainStep, known: Mapping[str, Dimension]
 ) -> Iterator[str]:
     """Yield what is wrong with the dimension of one step; ``known`` are the names before it."""
-    written = f"step {step.name!r} = {format_tree(step.expr)}"
+    formula = format_tree(step.expr)
+    if len(formula) > _LONGEST_FORMULA:
+        formula = f"{formula[:_LONGEST_FORMULA]} ..."
+    written = f"step {step.name!r} = {formula}"
     try:
         found = _infer_dimension(step.expr, known)
     except _ClashError as error:
@@ -212,7 +217,10 @@ def _parse_unit_dimension(units: UnitRegistry, text: str) -> Dimension:
 def _format_dimension(dimension: Dimension) -> str:
     """Return a dimension in plain text, such as ``m*s^-1``."""
     powers = (base if power == 1 else f"{base}^{power}" for base, power in dimension.items())
-    return "*".join(powers) or "plain numbers"
+    hint = (
+        ' (draw it in K, too: T = { is = "t + 273.15", unit = "K" })' if "°C" in dimension else ""
+    )
+    return ("*".join(powers) or "plain numbers") + hint
 
 
 def _infer_dimension(expr: Expr, known: Mapping[str, Dimension]) -> Dimension | None:

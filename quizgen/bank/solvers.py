@@ -12,7 +12,7 @@ import importlib
 import re
 import sys
 import traceback
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import lru_cache
 from importlib.abc import MetaPathFinder
@@ -27,7 +27,14 @@ from quizgen.core.errors import BankError
 from quizgen.core.imports import LOCK
 from quizgen.core.untrusted import read_bytes
 from quizgen.maths.chain import Chain
-from quizgen.maths.model import WAITING, Model, leave_symbolic, work_out
+from quizgen.maths.model import Model, work_out
+from quizgen.maths.waiting import (
+    ask_property,
+    check_calls,
+    compare_written,
+    leave_symbolic,
+    watch_calls,
+)
 
 _CHAINS = CompileCache("chains", Chain, "sympy")
 _PRIVATE = "_quizgen_solvers_"
@@ -50,7 +57,7 @@ class _AsWritten(SourceFileLoader):
         source = self.get_data(path)
         if not _REWRITTEN.search(source):
             return self.source_to_code(source, path)
-        tree = _WorkingOut().visit(_WaitingForNumbers().visit(ast.parse(source, path)))
+        tree = _WaitingForNumbers().visit(_WorkingOut().visit(ast.parse(source, path)))
         return self.source_to_code(ast.fix_missing_locations(tree), path)
 
 
@@ -173,12 +180,15 @@ def _compile_solver(folder: Path, name: str) -> Chain:
     Raises ``BankError`` if the file cannot be run, or holds no model.
     """
     unload_modules(folder)
-    model = getattr(import_module_file(folder, name), "MODEL", None)
+    with watch_calls() as calls:
+        model = getattr(import_module_file(folder, name), "MODEL", None)
     file = folder / f"{name}.py"
     if not isinstance(model, Model):
         raise BankError("no MODEL in this solver", rule="QG132", file=file)
     with author_error_context(file):
-        return model.chain()
+        chain = model.chain()
+        check_calls(calls, {*chain.given, *(step.name for step in chain.steps)})
+        return chain
 
 
 _EVALUATING = frozenset({
@@ -189,8 +199,12 @@ _EVALUATING = frozenset({
     "series", "simplify", "solve", "solveset", "summation", "together", "trigsimp",
 })  # fmt: skip
 """Functions and methods of SymPy that give nonsense or fail where nothing is evaluated."""
-_WORK_OUT, _LEAVE = "_quizgen_work_out", "_quizgen_leave_symbolic"
-_REWRITTEN = re.compile(rf"\b(?:evaluate|{'|'.join(sorted(WAITING))})\(".encode())
+_WORK_OUT = "_quizgen_work_out"
+_BROUGHT = {
+    one: f"_quizgen_{one.__name__}" for one in (leave_symbolic, compare_written, ask_property)
+}
+"""What a solver is rewritten with, to its name there."""
+_REWRITTEN = re.compile(rb"\bsympy\b")
 
 
 class _WorkingOut(ast.NodeTransformer):
@@ -211,22 +225,47 @@ class _WorkingOut(ast.NodeTransformer):
 
 
 class _WaitingForNumbers(ast.NodeTransformer):
-    """Has functions of whole numbers wait until numbers are drawn."""
+    """Has what needs numbers wait until they are drawn, or refused if it cannot wait."""
 
     def visit_Module(self, node: ast.Module) -> ast.Module:
         """Rewrite a file, which may begin with its docstring and ``from __future__``."""
         self.generic_visit(node)
         first = next((n for n, one in enumerate(node.body) if not _stands_first(one)), 0)
-        bring = ast.ImportFrom(leave_symbolic.__module__, [ast.alias("leave_symbolic", _LEAVE)], 0)
-        node.body.insert(first, bring)
+        for one, name in _BROUGHT.items():
+            bring = ast.ImportFrom(one.__module__, [ast.alias(one.__name__, name)], 0)
+            node.body.insert(first, bring)
         return node
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
-        """Rewrite the call of one of ``WAITING``."""
+        """Rewrite a call: what is called, and functions that it is given."""
         self.generic_visit(node)
-        if _called_name(node) in WAITING:
-            node.func = ast.Call(ast.Name(_LEAVE, ast.Load()), [node.func], [])
+        node.func = _wrap(leave_symbolic, node.func)
+        node.args = [
+            _wrap(leave_symbolic, arg) if isinstance(arg, ast.Name | ast.Attribute) else arg
+            for arg in node.args
+        ]
         return node
+
+    def visit_Compare(self, node: ast.Compare) -> ast.AST:
+        """Rewrite ``a == b`` and ``a != b``."""
+        self.generic_visit(node)
+        sign = {ast.Eq: "==", ast.NotEq: "!="}.get(type(node.ops[0]))
+        if sign is None or len(node.ops) > 1:
+            return node
+        call = _wrap(compare_written, ast.Constant(sign), node.left, node.comparators[0])
+        return ast.copy_location(call, node)
+
+    def visit_Attribute(self, node: ast.Attribute) -> ast.AST:
+        """Rewrite ``a.is_prime`` and the like."""
+        self.generic_visit(node)
+        if not isinstance(node.ctx, ast.Load) or not node.attr.startswith("is_"):
+            return node
+        return ast.copy_location(_wrap(ask_property, node.value, ast.Constant(node.attr)), node)
+
+
+def _wrap(brought: Callable[..., object], *args: ast.expr) -> ast.Call:
+    """Return a call of what a solver is rewritten with."""
+    return ast.Call(ast.Name(_BROUGHT[brought], ast.Load()), [*args], [])
 
 
 def _stands_first(node: ast.stmt) -> bool:

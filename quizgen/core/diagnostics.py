@@ -294,6 +294,10 @@ _CODES = {
                   "and another criterion of the part asks for that, too.",
                   "say of what"),
     # Figures.
+    "QG330": Rule(
+        "A solver asks of letters what only numbers have.",
+        "compute it by what docs/functions.md lists, which waits for the drawn numbers",
+    ),
     "QG401": Rule("The figure of the question shows the answer.",
                   "leave it out of draw and alt where quiz is true"),
     "QG402": Rule("What is to be read in the figure does not stand there.",

@@ -62,7 +62,7 @@ class AuthoredExpression(AuthoredAnswer, kw_only=True, tag="expression", frozen=
 
     of: str = ""
     value: str = ""
-    symbols: dict[str, SymbolDomain] = msgspec.field(default_factory=dict)
+    symbols: dict[str, SymbolDomain | Literal["whole"]] = msgspec.field(default_factory=dict)
     traps: dict[str, str] = msgspec.field(default_factory=dict)
     form: Literal["", "any", "factored", "expanded", "lowest"] = ""
     up_to: Literal["", "constant", "factor"] = ""
@@ -76,7 +76,7 @@ class AuthoredExpression(AuthoredAnswer, kw_only=True, tag="expression", frozen=
 
 
 class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
-    """Expression: ``value``; ``symbols`` = {name: "real", "positive" or [low, high]}.
+    """Expression: ``value``; ``symbols`` = {name: "real", "positive", "whole" or [low, high]}.
 
     ``form`` = factored, expanded or lowest; ``up_to`` = constant (``+ C`` may be typed) or factor.
     ``calls`` are values of an unknown function, such as ``f(n - 1)``, by the names that they have
@@ -193,11 +193,12 @@ def _check_domain(name: str, domain: Domain) -> None:
     Raises
     ------
     ValueError
-        If it is not ``real``, ``positive`` or two bounds in order.
+        If it is not ``real``, ``positive``, ``whole`` or two bounds in order.
     """
     if isinstance(domain, str):
-        if domain not in {"real", "positive"}:
-            raise ValueError(f"symbols.{name}: {domain!r} is not real, positive or [low, high]")
+        if domain not in {"real", "positive", "whole"}:
+            what = f"{domain!r} is not real, positive, whole or [low, high]"
+            raise ValueError(f"symbols.{name}: {what}")
     elif len(domain) != 2 or not parse_exact(domain[0]) < parse_exact(domain[1]):
         raise ValueError(f"symbols.{name}: [low, high] needs low < high")
 

@@ -299,7 +299,12 @@ def _rewrite_function(expression: sympy.Basic) -> Expr:
 
     Raises ``BankError`` if SymPy cannot rewrite it.
     """
-    other = expression.rewrite(REWRITES[type(expression)])
+    kind = REWRITES[type(expression)]
+    other = expression.rewrite(kind)
+    if type(other) is type(expression):  # SymPy wants to know that the order of yn is whole
+        order, *rest = expression.args
+        whole = sympy.Dummy(integer=True)
+        other = expression.func(whole, *rest).rewrite(kind).xreplace({whole: order})
     if type(other) is type(expression):
         raise BankError(f"no formula for {expression}")
     return from_sympy(other)

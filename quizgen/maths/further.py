@@ -49,6 +49,13 @@ def _require_integer(a: Value, least: int, most: int) -> int:
     return int(a.p)
 
 
+def _require_rational(a: Value) -> fmpq:
+    """Return a value that is a fraction; ``MathError`` if it is irrational."""
+    if not isinstance(a, fmpq):
+        raise MathError("a fraction is needed")
+    return a
+
+
 def _make_ball_function(compute: Callable[..., arb | acb]) -> Callable[..., Value]:
     """Return a function of balls as one of any values."""
     return lambda *args: _require_real(compute(*map(_to_ball, args)))
@@ -298,6 +305,8 @@ FUNCTIONS = SimpleNamespace(
     primepi=_make_whole_function(_count_primes, 0, LARGEST_SIEVED),
     prime=_make_whole_function(_find_prime, 1),
     primorial=_make_whole_function(lambda n: prod(_find_prime(k) for k in range(1, n + 1)), 1, 100),
+    numer=lambda a: fmpq(_require_rational(a).p),
+    denom=lambda a: fmpq(_require_rational(a).q),
     gcd=_take_pairwise(gcd),
     lcm=_take_pairwise(lcm),
     harmonic=_harmonic,

@@ -23,7 +23,6 @@ import msgspec
 
 from quizgen.core.errors import BankError
 from quizgen.maths.chain import Chain, ChainStep
-from quizgen.maths.operators import UNEVALUATED
 from quizgen.maths.tree import names_in
 
 if TYPE_CHECKING:
@@ -43,32 +42,6 @@ def work_out(compute: Callable[[], T]) -> T:
 
     with evaluate(True):
         return compute()
-
-
-_CALLED_HERE = {"igcd": "gcd", "ilcm": "lcm", "divisor_count": "divisor_sigma"}
-"""Functions of SymPy to those of ours that say the same."""
-WAITING = UNEVALUATED | {*_CALLED_HERE}
-"""Functions of SymPy that need numbers, and get names where a solver is compiled."""
-
-
-def leave_symbolic(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return one of SymPy's functions of numbers so that it waits for drawn ones.
-
-    Of names, ``gcd(a, b)`` is 1, as of polynomials, and ``isprime(a)`` fails.
-    """
-    from sympy import Function
-
-    module, name = getattr(function, "__module__", ""), getattr(function, "__name__", "")
-
-    def call(*args: Any) -> Any:
-        """Return the value, or the call as it is written if it has names in it."""
-        if any(getattr(arg, "free_symbols", ()) for arg in args):
-            more = (0,) if name == "divisor_count" else ()
-            return Function(_CALLED_HERE.get(name, name))(*args, *more)
-        return function(*args)
-
-    waits = isinstance(module, str) and module.startswith("sympy.")
-    return call if waits and not isinstance(function, type) else function
 
 
 @dataclass(frozen=True, slots=True)

@@ -413,7 +413,7 @@ def exact_system() -> NumberSystem:
 
     lists = build_list_functions(own.square_root, fmpq)
     ops = operator_functions(
-        "exact", own, operator, special, own.BALLS, further.FUNCTIONS, **_LOGIC, **lists
+        "exact", own, operator, special, further.FUNCTIONS, own.BALLS, **_LOGIC, **lists
     )
     return NumberSystem("exact", to_rational, ops, guard=at_working_precision)
 

@@ -121,7 +121,8 @@ FURTHER = {
     **dict.fromkeys(
         ("fibonacci", "lucas", "tribonacci", "bernoulli", "euler", "bell", "genocchi", "partition",
          "factorial2", "subfactorial", "primorial", "totient", "reduced_totient", "mobius",
-         "primenu", "primeomega", "primepi", "prime", "nextprime", "prevprime", "isprime"), (1, 1),
+         "primenu", "primeomega", "primepi", "prime", "nextprime", "prevprime", "isprime", "numer",
+         "denom"), (1, 1),
     ),
     **dict.fromkeys(
         ("jacobi_symbol", "legendre_symbol", "mod_inverse", "n_order", "multiplicity"), (2, 2)
@@ -213,7 +214,7 @@ DISTRIBUTIONS = frozenset(name for name in OPERATORS if name.endswith(("_cdf", "
 
 UNEVALUATED = DISTRIBUTIONS | {
     "stirling", "gcd", "lcm", "primorial", "prime", "nextprime", "prevprime", "isprime",
-    "mod_inverse", "n_order", "multiplicity",
+    "mod_inverse", "n_order", "multiplicity", "numer", "denom",
 }  # fmt: skip
 """Operators that SymPy can only write as functions without a meaning: it has no class for them."""
 

@@ -64,10 +64,10 @@ class FormResolver:
                 raise BankError(f"{what} (compute it before `with evaluate(False)`)") from error
 
     def _divide_polynomials(self, whole: sympy.Basic) -> sympy.Basic:
-        """Return an expression with ``gcd`` and ``lcm`` of polynomials worked out."""
+        """Return an expression with ``gcd``, ``numer`` and the like of formulas worked out."""
         calls = [
             call for call in getattr(whole, "atoms", lambda *_: ())(AppliedUndef)
-            if call.func.__name__ in {"gcd", "lcm"} and self._is_free(*call.args)
+            if call.func.__name__ in {"gcd", "lcm", "numer", "denom"} and self._is_free(*call.args)
         ]  # fmt: skip
         found = {call: getattr(sympy, call.func.__name__)(*call.args) for call in calls}
         return whole.xreplace(found) if found else whole

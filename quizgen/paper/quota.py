@@ -15,7 +15,6 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from itertools import chain, pairwise
-from operator import itemgetter
 from pathlib import Path
 from typing import NamedTuple
 
@@ -28,8 +27,10 @@ from quizgen.paper.constraints import READING
 
 ROUND = 200
 """Papers of a round: seeds in a row that know of each other."""
-TRIES, PASSES, GOOD = 60, 6, 12
+TRIES, PASSES, GOOD = 60, 6, 100
 """Beginnings of a paper that are tried, how often each is gone through, how many have to do."""
+KICKED = 5
+"""Places of a paper that are filled with anyone before it is gone through once more."""
 FEW = 8
 """Papers that are made again rather than kept."""
 TOO_MANY = 100
@@ -200,22 +201,29 @@ class _Round:
     def _make_paper(self) -> tuple[Candidate, ...] | None:
         """Return the next paper: the first that meets all demands and shares little, if any does.
 
-        Of the first ``GOOD`` that meet the demands and share too much, that which shares least.
+        While it shares too much, a few of its places are filled anew, and it is kept if it shares
+        no more then: late in a round that finds what beginning anew does not.
         """
-        good: list[tuple[int, tuple[Candidate, ...]]] = []
-        for attempt in range(TRIES):
+        best: tuple[int, tuple[Candidate, ...]] | None = None
+        good = 0
+        for attempt in range(TRIES + GOOD):
+            if best is None and attempt == TRIES:
+                return None
             draft = _Draft(self, attempt)
-            paper = draft.improve()
+            paper = draft.improve(best[1] if best else ())
             if not paper:
                 continue
             key = next((one.key for one in self.demands if not one.holds(paper)), "")
             if key:
                 self.missed[key] += 1
                 continue
-            good.append((draft.count_excess(), tuple(paper)))
-            if not good[-1][0] or len(good) == GOOD:
+            good += 1
+            excess = draft.count_excess()
+            if best is None or excess <= best[0]:
+                best = excess, tuple(paper)
+            if not excess or good == GOOD:
                 break
-        return min(good, key=itemgetter(0))[1] if good else None
+        return best[1] if best else None
 
 
 class _Draft:
@@ -237,19 +245,27 @@ class _Draft:
         self.alike = [0] * len(papers.papers)
         """Questions that each earlier paper shares."""
 
-    def improve(self) -> list[Candidate]:
+    def improve(self, start: Sequence[Candidate] = ()) -> list[Candidate]:
         """Return a template for each place; none where nothing may stand at one of them.
 
         Again and again each place is filled anew, in any order, until nothing gets better. The
         first time the demands do not count yet; of later attempts it is any template.
+
+        Parameters
+        ----------
+        start : sequence of Candidate, optional
+            A paper to begin from, of which the first time only ``KICKED`` places are filled anew.
         """
         count, papers = len(self.round.places), self.round
         salt = f"quota/{papers.number}/{len(papers.papers)}/{self.attempt}".encode()
         drawn = hashlib.shake_128(salt).digest(2 * count * (PASSES + 1))
+        for place, one in enumerate(start):
+            self._fill_place(place, one)
         for turn in range(PASSES + 1):
             keys = [drawn[2 * n : 2 * n + 2] for n in range(turn * count, (turn + 1) * count)]
             before = dict(self.chosen)
-            for place in sorted(range(count), key=keys.__getitem__):
+            order = sorted(range(count), key=keys.__getitem__)
+            for place in order[: KICKED if start and not turn else count]:
                 self._fill_place(place, None)
                 care = 2 if turn else int(not self.attempt)
                 best = self._choose_template(place, keys[place][1], care)

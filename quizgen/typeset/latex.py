@@ -180,7 +180,8 @@ def _unit_text(text: str) -> str:
     written = ""
     for part in split_unit(text):
         sign = r" \cdot " if part.sign == "·" else part.sign
-        written += sign + _simple_unit(part.shown) + (f"^{{{part.power}}}" if part.power else "")
+        power = f"^{{{part.power}}}" if part.power else ""
+        written += sign + part.opening + _simple_unit(part.shown) + power + part.closing
     return written
 
 

@@ -222,11 +222,12 @@ def _unit_text(text: str) -> str:
     """Return a unit in MathML, cached since a paper repeats it."""
     written, plain = "", ""
     for part in split_unit(text):
-        plain += part.sign.replace("·", "⋅") + part.shown
+        plain += part.sign.replace("·", "⋅") + part.opening + part.shown
         if part.power:
             exponent = f"<mn>{part.power.replace('-', '−')}</mn>"
             written += f"<msup><mtext>{plain}</mtext>{exponent}</msup>"
             plain = ""
+        plain += part.closing
     tail = f"<mtext>{plain}</mtext>" if plain else ""
     return f"<mrow>{written}{tail}</mrow>" if written and tail else written + tail
 

@@ -21,7 +21,8 @@ TIGHT = frozenset({"deg", "°"})
 """Units set without a space after the number."""
 
 _PART = re.compile(
-    r"(?P<sign>[*/·]?)(?P<name>[kMG]?e[-⁻]|[^*/·^⁻⁰-⁹²³]+)(?:\^?(?P<power>-?\d|⁻?[²³¹⁰⁴-⁹]))?"
+    r"(?P<sign>[*/·]?)(?P<opening>\(?)(?P<name>[kMG]?e[-⁻]|[^*/·^⁻⁰-⁹²³()]+)"
+    r"(?:\^?(?P<power>-?\d|⁻?[²³¹⁰⁴-⁹]))?(?P<closing>\)?)"
 )
 
 
@@ -29,12 +30,17 @@ _NAME = re.compile(r"[^\W\d_]+|[kMG]?e-|°[CF]?|[%‰€$£৳1]")
 
 
 class UnitPart(NamedTuple):
-    """One simple unit: the sign before it, its listed name, how it is shown, its power."""
+    """One simple unit: the sign before it, its listed name, how it is shown, its power.
+
+    ``opening`` and ``closing`` are brackets around what is divided by: ``J/(mol·K)``.
+    """
 
     sign: str
     name: str
     shown: str
     power: str
+    opening: str = ""
+    closing: str = ""
 
 
 @lru_cache(maxsize=512)
@@ -47,16 +53,21 @@ def split_unit(text: str) -> tuple[UnitPart, ...]:
         If a part is no name of a unit.
     """
     compact = text.replace(" ", "")
-    found, position = [], 0
+    found, position, within = list[UnitPart](), 0, False
     while position < len(compact):
         match = _PART.match(compact, position)
         listed = match["name"].replace("⁻", "-") if match else ""
         if match is None or not _NAME.fullmatch(listed):
             raise RenderError(f"no way to print the unit {text!r}")
+        within = bool(match["opening"]) or within
+        if (match["opening"] and match["sign"] != "/") or (match["closing"] and not within):
+            raise RenderError(f"no way to print the unit {text!r}")
         sign = "/" if match["sign"] == "/" else "·" * bool(match["sign"])
         power = (match["power"] or "").translate(LOWERED)
-        found.append(UnitPart(sign, listed, SHOWN.get(listed, listed), power))
+        shown = SHOWN.get(listed, listed)
+        found.append(UnitPart(sign, listed, shown, power, match["opening"], match["closing"]))
         position = match.end()
+        within = within and not match["closing"]
     return tuple(found)
 
 

@@ -182,10 +182,12 @@ def _say_reader_word(node: n.ReaderWord, lang: str) -> str:
 def say_unit(text: str, lang: str, *, one: bool = False) -> str:
     """Return a unit as it is spoken, in the singular after the number one."""
     words = load_speech_words(lang)
-    said = ""
+    said, within = "", False
     for part in split_unit(text):
         below = part.sign == "/" or part.power.startswith("-")
-        word = _simple_unit(part, words, one=one or below)
+        within = bool(part.opening) or within
+        word = _simple_unit(part, words, one=one or below or within)
+        within = within and not part.closing
         word = _insert_word(words.unit_joints.get(part.power.lstrip("-"), "{}"), word)
         joint = words.unit_joints["/" if below else "·"]
         said = joint.format(said, word) if said or below else word

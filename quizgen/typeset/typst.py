@@ -166,7 +166,11 @@ def _unit_text(text: str) -> str:
     for part in split_unit(text):
         sign = {"·": "dot.op", "/": "slash", "": ""}[part.sign]
         power = f"^({part.power})" if part.power else ""
-        written += f"{sign}{_UNITS.get(part.shown) or typst_string(part.shown)}{power}"
+        opening, closing = (
+            typst_string(one) if one else "" for one in (part.opening, part.closing)
+        )
+        simple = _UNITS.get(part.shown) or typst_string(part.shown)
+        written += f"{sign}{opening}{simple}{power}{closing}"
     return written
 
 

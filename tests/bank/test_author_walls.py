@@ -68,6 +68,16 @@ Q, m, T, c = symbols("Q m T c")
 MODEL = Model(given={Q: "J", m: "kg", T: "K"}, steps=(Step(c, Q/(m*T), "J/(kg*K)"),))
 """, 'Q = { pick = [840], unit = "J" }\\nm = { pick = [2], unit = "kg" }\\nT = { pick = [10], unit = "K" }',
             ['kind = "quantity", of = "c", unit = "J/(kg*K)", sigfigs = 2']),
+        "gas": ("""
+n, T, R, w = symbols("n T R w")
+MODEL = Model(given={n: "mol", T: "K", R: "J/(mol*K)"}, steps=(Step(w, n*R*T, "kJ"),))
+""", 'n = { pick = [2], unit = "mol" }\\nt = { pick = [27], unit = "°C" }\\nT = { is = "t + 273.15", unit = "K" }\\nR = { pick = ["8.314"], unit = "J/(mol*K)" }',
+            ['kind = "quantity", of = "w", unit = "kJ", sigfigs = 3']),
+        "sawtooth": ("""
+a, x = symbols("a x")
+n = symbols("n", integer=True, positive=True)
+MODEL = Model(given={a: ""}, free=("n",), steps=(Step("b", integrate(a*x*sin(n*x), (x, -pi, pi))/pi),))
+""", "a = { pick = [2] }", ['kind = "expression", of = "b", symbols = { n = "whole" }']),
         "confidence": ("""
 m, w = symbols("m w")
 MODEL = Model(given={m: "", w: ""}, steps=(Step("C", Interval(m - w*sqrt(2), m + w*sqrt(2))),))
@@ -79,16 +89,17 @@ MODEL = Model(given={m: "", w: ""}, steps=(Step("C", Interval(m - w*sqrt(2), m +
 @pytest.mark.parametrize(("name", "typed"), [
     ("payments", "300"), ("pair", "sum = 4 mol/L; difference = 2 mol/L"),
     ("heat", "42 J/(kg K)"), ("heat", "42 J/kgK"), ("heat", "42 J/(kg·K)"), ("heat", "0.042 kJ/(kgK)"),
+    ("gas", "4.99 kJ"), ("sawtooth", "4(-1)^(n+1)/n"), ("sawtooth", "-4cos(n pi)/n"),
     ("confidence", "[7.17; 12.83]"), ("confidence", "(7.17, 12.83)"), ("confidence", "7.17 - 12.83"),
 ])  # fmt: skip
 def test_right_answers_are_right(bank, name, typed):
     assert quizgen.mark_part(bank.template(name), typed).verdict == "correct"
 
 
-@pytest.mark.parametrize("name", ["payments", "pair", "heat"])
+@pytest.mark.parametrize("name", ["payments", "pair", "heat", "gas", "sawtooth"])
 def test_what_is_printed_is_read_back(bank, name):
     rules = [problem.code for problem in lint_template(bank.template(name), 1).problems]
-    assert not {"QG205", "QG603"} & {*rules}
+    assert not {"QG205", "QG601", "QG603"} & {*rules}
 
 
 def test_bounds_are_printed_as_far_as_they_are_asked(bank):

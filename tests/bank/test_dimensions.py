@@ -117,6 +117,8 @@ WRONG = [
     ("a + 0", "rad", {"a": "30 °"}, "in degrees"),
     ("1.008*n", "g/mol", {"n": "2 1"}, "is a plain number.*1 would be 1000 g/mol"),
     ("U/I", "W", {"U": "3 V", "I": "90 mA"}, "and the step says 'W'"),
+    ("Q/T", "J/K", {"Q": "5 J", "T": "20 °C"}, r"°C\^-1 \(draw it in K, too"),
+    (f"sin({'+'.join(['a'] * 99)})", "", {"a": "30 °"}, r" \.\.\.: sin of degrees"),
     ("m*v", "J", {"m": "3 kg", "v": "2 m/s"}, "and the step says 'J'"),
     ("T + d", "K", {"T": "20 °C", "d": "3 K"}, "cannot be put together"),
     ("a + b", "€", {"a": "20 €", "b": "3 $"}, "cannot be put together"),

@@ -33,7 +33,7 @@ WHOLE = [
     ("stirling", (7, 3)), ("stirling", (5, 0)), ("mod_inverse", (3, 11)), ("n_order", (3, 7)),
     ("n_order", (2, 15)), ("multiplicity", (2, 24)), ("multiplicity", (5, 24)),
     ("jacobi_symbol", (5, 21)), ("legendre_symbol", (5, 11)), ("gcd", (12, 18)), ("gcd", (-4, 6)),
-    ("lcm", (12, 18)), ("harmonic", (6, 2)), ("divisor_sigma", (12, 0)),
+    ("lcm", (12, 18)), ("numer", (HALF * 3,)), ("denom", (HALF * 3,)), ("harmonic", (6, 2)), ("divisor_sigma", (12, 0)),
 ]  # fmt: skip
 REAL = {
     "Ei": mpmath.ei, "Si": mpmath.si, "Ci": mpmath.ci, "Shi": mpmath.shi, "Chi": mpmath.chi,

@@ -10,7 +10,16 @@ from sweep import together
 from quizgen.bank.markdown import parse_inlines
 from quizgen.core.errors import RenderError
 from quizgen.maths.notation import parse_formula
-from quizgen.typeset import lay_out, number, quantity, to_latex, to_mathml, to_text, to_typst
+from quizgen.typeset import (
+    lay_out,
+    number,
+    quantity,
+    to_latex,
+    to_mathml,
+    to_speech,
+    to_text,
+    to_typst,
+)
 from quizgen.typeset.from_latex import lay_out_latex
 from quizgen.typeset.leaves import LeafValue, fill_leaves, list_leaf_names
 from quizgen.typeset.names import iter_names_written
@@ -155,3 +164,23 @@ def test_the_names_are_those_of_the_places():
 def test_the_letters_of_a_formula_are_spelled_as_solvers_do():
     node = lay_out_latex(r"\bar x = \frac{\mu_1 x_i'}{\sigma^a} + x_{\max} \sin b")
     assert set(iter_names_written(node)) == {"xbar", "mu_1", "x'_i", "sigma", "a", "x_max", "b"}
+
+
+@pytest.mark.parametrize(("unit", "latex", "mathml", "typst", "spoken"), [
+    ("J/(mol*K)", r"\mathrm{J}/(\mathrm{mol} \cdot \mathrm{K})", "<mtext>J/(mol⋅K)</mtext>",
+     '"J"slash"(""mol"dot.op"K"")"', "joules per mole kelvin"),
+    ("W/(m^2*K)", r"\mathrm{W}/(\mathrm{m}^{2} \cdot \mathrm{K})", "<mtext>⋅K)</mtext>",
+     '"W"slash"(""m"^(2)dot.op"K"")"', "watts per square metre kelvin"),
+])  # fmt: skip
+def test_a_unit_is_divided_by_several(unit, latex, mathml, typst, spoken):
+    shown = quantity("8.314", unit)
+    assert latex in to_latex(shown)
+    assert mathml in to_mathml(shown)
+    assert typst in to_typst(shown)
+    assert to_speech(shown).endswith(spoken)
+
+
+@pytest.mark.parametrize("unit", ["J/mol)", "J(mol", "J/((mol)"])
+def test_odd_brackets_are_no_unit(unit):
+    with pytest.raises(RenderError):
+        to_latex(quantity("1", unit))

@@ -28,9 +28,12 @@ TRIES = 96
 BITS = 128
 """Working precision: a difference beyond 30 digits is seen."""
 
+_LARGEST_WHOLE = 40
+"""Largest whole number at which formulas are compared."""
+
 Domain = str | list[Scalar]
 SampleInterval = str | tuple[Scalar, ...]
-"""A domain that can be looked up: ``real``, ``positive`` or its two bounds."""
+"""A domain that can be looked up: ``real``, ``positive``, ``whole`` or its two bounds."""
 
 Env = Values
 
@@ -74,7 +77,12 @@ def _draw_sample_points(
 
 
 def _draw_sample_value(domain: SampleInterval, source: random.Random) -> fmpq:
-    """Return a rational number of a domain: any size from 1e-3 to 16, or inside the two bounds."""
+    """Return a rational number of a domain: any size from 1e-3 to 16, or inside the two bounds.
+
+    A whole number is one from 1 to 40.
+    """
+    if domain == "whole":
+        return fmpq(source.randint(1, _LARGEST_WHOLE))
     # The offsets have a prime in the denominator, and all else a power of 2: no point is 0, 1, a
     # bound or a simple fraction, at which different formulas (x, x^2) happen to agree.
     size = fmpq(source.randint(1, 4095), 2 ** source.randint(8, 12)) + fmpq(1, 977)
@@ -177,7 +185,7 @@ def compare_by_sampling(
     first, second : Expr
         The key and the typed formula.
     symbols : mapping of str to domain
-        ``real``, ``positive`` or ``[low, high]`` per name.
+        ``real``, ``positive``, ``whole`` or ``[low, high]`` per name.
     related : bool
         Whether to look for the factor or offset between different ones.
 

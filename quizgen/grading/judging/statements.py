@@ -40,6 +40,8 @@ LOOSE = 3
 SHORTEST = 4
 """Letters of a word that others may go on from; fewer in scripts that write fewer letters."""
 
+APART = 4
+"""Words after *between* in which its *and* stands."""
 LONE = 3
 """Most things that an example says, its denial counted, which is about a single one."""
 
@@ -141,6 +143,9 @@ class _Vocabulary:
     than_behind: frozenset[str]
     helpers: frozenset[str]
     degrees: frozenset[str]
+    halves: frozenset[tuple[str, ...]]
+    between: frozenset[str]
+    causes: frozenset[tuple[str, ...]]
     fillers: frozenset[str]
     grammar: frozenset[str]
     scales: Mapping[str, tuple[Scale, ...]]
@@ -192,6 +197,9 @@ def _vocabulary() -> _Vocabulary:
         words("than_behind"),
         words("helpers"),
         words("degrees"),
+        frozenset(rows("halves")),
+        words("between"),
+        frozenset(rows("causes")),
         words("fillers"),
         frozenset().union(*map(words, (*_OF_REMARKS, "helpers", "breaks"))),
         _group_scales(ends),
@@ -210,6 +218,14 @@ def list_clause_words(name: str) -> frozenset[str]:
         for word in load_words(lang, "statements")["clauses"].get(name, ())
         if " " not in word
     )
+
+
+@cache_words
+def list_equal_words(name: str) -> frozenset[str]:
+    """Return the single words that mean the same as one of them in all languages, folded."""
+    tables = [table for lang in list_languages() if (table := load_words(lang, "statements"))]
+    words = (word for table in tables for word in table["words"].get(name, ()))
+    return frozenset(fold_word(word) for word in words if " " not in word)
 
 
 def _group_scales(ends: Iterable[tuple[str, Scale]]) -> dict[str, tuple[Scale, ...]]:
@@ -247,7 +263,7 @@ def find_scales(word: str, *, slips: bool = True) -> tuple[Scale, ...]:
     found = tuple(scale for stem, scale in known.stems if word.startswith(stem))
     if found or not slips or len(word) <= SHORTEST:
         return found
-    if word in known.fillers or word in known.breaks:
+    if word in known.fillers or word in known.grammar:  # *right* is no slip of *bright*
         return ()
     near = [
         scale for stem, scale in known.stems if len(stem) > SHORTEST and _is_near_stem(word, stem)
@@ -704,7 +720,7 @@ class Statement:
                 found.append(_Clause(sentence))
             elif self._pauses(place):
                 found.append(_Clause(sentence))
-            elif token.text in known.breaks:
+            elif token.text in known.breaks and not self._is_between(place):
                 found.append(_Clause(sentence, [place]))
             else:
                 found[-1].places.append(place)
@@ -718,6 +734,15 @@ class Statement:
             self._read_denials(clause)
         self._spread_remarks(found)
         return found
+
+    def _is_between(self, place: int) -> bool:
+        """Return whether a word joins two things between which something is."""
+        known, before = _vocabulary(), self.tokens[max(place - APART, 0) : place]
+        near = [at for at, token in enumerate(before) if token.text in known.between]
+        return bool(near) and not any(
+            token.text in known.breaks or token.text in _PAUSE | _STOP
+            for token in before[near[-1] :]
+        )
 
     def _ends_sentence(self, place: int) -> bool:
         """Return whether a stop ends a sentence and no abbreviation or number."""
@@ -804,6 +829,7 @@ class Statement:
             begins = not index or clauses[index - 1].sentence != clause.sentence
             behind = self._count_remark(clauses, index) if begins else 0
             clause.doubted |= index > 0 and clause.corrects
+            behind = behind or 2 * (begins and self._is_bare_denial(clause))
             if behind:
                 for other in clauses[index + behind - 1 :]:
                     other.doubted |= other.sentence == clause.sentence
@@ -846,6 +872,18 @@ class Statement:
             return 0
         states = len(head) > 1 and head[-1] in known.that and head[-2] in known.helpers
         return 0 if states and head[0] not in known.verdicts else reach
+
+    def _is_bare_denial(self, clause: _Clause) -> bool:
+        """Return whether a clause is a denial and a colon, *by no means: ...*, and no correction."""
+        texts = [self.tokens[at].text for at in clause.places]
+        known, after = _vocabulary(), clause.places[-1] + 1
+        return (
+            not clause.corrects
+            and len(self.tokens) > after
+            and self.tokens[after].text == ":"
+            and bool(clause.denials)
+            and all(one in known.denials | known.fillers | known.remarks for one in texts)
+        )
 
     def _is_remark(self, clause: _Clause) -> bool:
         """Return whether a clause only says that what was said is not so."""
@@ -969,9 +1007,33 @@ class Statement:
             return False
         for index in {self._clause_of(at) for at in evidence.places}:
             for clause in reversed(self.clauses[: index + 1]):
-                if clause.sentence != self.clauses[index].sentence or self._names(clause, mine):
+                if clause.sentence != self.clauses[index].sentence:
+                    break
+                if self._names(clause, mine):
+                    if self._gives_other_cause(clause, mine, others):
+                        return True
                     break
                 if self._names(clause, others):
+                    return True
+        return False
+
+    def _gives_other_cause(
+        self, clause: _Clause, mine: Collection[Words], others: Collection[Words]
+    ) -> bool:
+        """Return whether a clause says that one thing comes from another: *fringes by vignetting*.
+
+        What stands before a word such as *because of* and what behind it are not of one idea.
+        """
+        for row in _vocabulary().causes:
+            for at in clause.places:
+                if not _has_row(self.tokens, at, row, exactly=True):
+                    continue
+                sides = (
+                    replace(clause, places=[one for one in clause.places if one < at]),
+                    replace(clause, places=[one for one in clause.places if one >= at + len(row)]),
+                )
+                told = [(self._names(one, mine), self._names(one, others)) for one in sides]
+                if sorted(told) == [(False, True), (True, False)]:
                     return True
         return False
 
@@ -1023,7 +1085,12 @@ class Statement:
                 if example.meaning == "denied" and not self._are_joined(window, example):
                     continue
                 fit = self._fit(items, [at for c in window for at in c.places], example)
-                if fit and fit[0] > 0 and not self._spread_denial(window, fit[1], example):
+                if (
+                    fit
+                    and fit[0] > 0
+                    and not self._spread_denial(window, fit[1], example)
+                    and not self._leaves_only(window, fit[1])
+                ):
                     single |= set(range(first, last + 1))
                     yield Evidence(example.meaning, example.text, first, last, example.size, fit[1])
 
@@ -1051,6 +1118,18 @@ class Statement:
             completed = [*before, *clause.places] if follows and alone else clause.places
             found.append(found[-1] if clause.corrects and found else completed)
         return found
+
+    def _leaves_only(self, window: Sequence[_Clause], places: tuple[int, ...]) -> bool:
+        """Return whether a word such as *only* is all that a clause has of what is needed.
+
+        *Only the cones work and the rods switch off* does not say *only the rods*.
+        """
+        alone = list_equal_words("only")
+        return any(
+            bool(mine) and all(self.tokens[at].text in alone for at in mine)
+            for clause in window
+            for mine in [[at for at in places if at in clause.places]]
+        )
 
     def _spread_denial(
         self, window: Sequence[_Clause], places: tuple[int, ...], example: Example
@@ -1139,7 +1218,11 @@ class Statement:
             rows = tuple(
                 scale for row, scale in _vocabulary().phrases if self._has_loose_row(place, row)
             )
-            self._scales[place] = rows or find_scales(word, slips=not self._words.has_own(word))
+            found = rows or find_scales(word, slips=not self._words.has_own(word))
+            before = tuple(token.text for token in self.tokens[max(place - 2, 0) : place])
+            if before in _vocabulary().halves:  # *half as wide* is narrower
+                found = tuple((name, -1) for name, _ in found if name == "amount")
+            self._scales[place] = found
         return self._scales[place]
 
     def _has_loose_row(self, place: int, row: Sequence[str]) -> bool:
