@@ -680,7 +680,9 @@ def read_truth(text: str) -> int:
 
 def _names_other_truth(rest: str, first: int) -> bool:
     """Return whether a word behind *true* or *false* says the other one."""
-    found = {_find_truth_word(word) for word in re.findall(r"[^\W\d_]{3,}", rest)} - {0}
+    found = {
+        _find_truth_word(word) for word in re.findall(r"(?:[^\W\d_]|[\u0980-\u09ff]){3,}", rest)
+    } - {0}
     return bool(found - {first})
 
 

@@ -106,7 +106,7 @@ class ComplexSpec(EntriesSpec, kw_only=True, frozen=True):
         )
         value = evaluate_complex(tree, frozenset(IMAGINARY))
         for side in before:
-            if any(map(_differ, evaluate_complex(side, frozenset(IMAGINARY)), value)):
+            if not _are_near(evaluate_complex(side, frozenset(IMAGINARY)), value):
                 raise FormulaReadError("sides-differ", 1, typed.strip()[:60])
         return tree, value
 
@@ -200,9 +200,12 @@ def _spell_out(typed: str) -> str:
     return f"({polar['size']})*exp(i*({polar['angle']}{unit}))"
 
 
-def _differ(first: Value, second: Value) -> bool:
-    """Return whether two values are certainly not equal."""
-    return values_agree(first, second) is False
+def _are_near(first: ComplexValue, second: ComplexValue) -> bool:
+    """Return whether two sides of a chain may be one number, one of them rounded."""
+    return all(
+        values_agree(a, b) is not False or abs(a - b) <= abs(b) * ROUNDED
+        for a, b in zip(first, second, strict=True)
+    )
 
 
 def find_written_form(tree: Expr) -> str:

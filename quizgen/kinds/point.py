@@ -198,7 +198,8 @@ def _coordinates(
         return correct(read_as)
     trap = _trap(spec, numbers)
     if trap:
-        return msgspec.structs.replace(wrong(read_as, f"trap:{trap}"), cells=cells)
+        told = verdict_by_share(_credit(keys, cells), read_as, f"trap:{trap}")
+        return msgspec.structs.replace(told, cells=cells)
     return msgspec.structs.replace(_hint(spec, numbers, keys, cells, read_as), cells=cells)
 
 
@@ -237,7 +238,10 @@ def _hint(
 ) -> Verdict:
     """Return a verdict that names swapped axes, signs, or which coordinate is wrong."""
     values = [number.value for number in numbers]
-    if all_match_target(spec, numbers, keys[::-1]):
+    turned = [
+        cell for cell, key, other in zip(cells, keys, keys[::-1], strict=True) if key != other
+    ]
+    if not any(cell.credit for cell in turned) and all_match_target(spec, numbers, keys[::-1]):
         return wrong(read_as, "swapped")
     missed = [i for i, cell in enumerate(cells) if cell.credit < 1]
     note, fields = "coordinate", dict[str, object]()

@@ -93,7 +93,7 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
     if len(hits) != 1:
         return 0
     wanted = listed[hits[0] - 1]
-    more = meant - wanted
+    more = meant - wanted - set_of_words("choices.but")
     counted = any(list_number_words().get(word, 0) > 1 or word.isdecimal() for word in more)
     if (
         counted
@@ -267,7 +267,8 @@ def _find_by_name(typed: str, wordings: Sequence[str]) -> int:
         ],
     ):
         if len(found) == 1:
-            return 0 if _is_shared(said & known, wordings, found[0]) else found[0]
+            meant = {one for word in said for one in _find_known_words(word, known)}
+            return 0 if _is_shared(meant & known, wordings, found[0]) else found[0]
     return 0
 
 
@@ -284,10 +285,11 @@ def _is_little_more(words: frozenset[str]) -> bool:
 
 def _find_same_pieces(typed: str, wordings: Sequence[str]) -> list[int]:
     """Return the places of wordings of the same pieces, in any order: ``night 1, day 2``."""
-    said = _list_pieces(typed)
+    listed = [_list_pieces(one) for one in wordings]
+    known = frozenset(word for pieces in listed for piece in pieces for word in piece)
+    said = _list_pieces(typed, known)
     if len(said) < FEWEST_PIECES:
         return []
-    listed = [_list_pieces(one) for one in wordings]
     return [place for place, pieces in enumerate(listed, 1) if pieces == said] or [
         place for place, pieces in enumerate(listed, 1) if _are_within(said, pieces)
     ]
@@ -301,12 +303,19 @@ def _are_within(said: frozenset[frozenset[str]], pieces: frozenset[frozenset[str
     ) and all(len(some) == 1 for some in within.values())
 
 
-def _list_pieces(text: str) -> frozenset[frozenset[str]]:
-    """Return the words of each piece between commas and joining words."""
-    return frozenset(frozenset(_split_words(piece)) for piece in _JOINED.split(text))
+def _list_pieces(text: str, known: frozenset[str] = frozenset()) -> frozenset[frozenset[str]]:
+    """Return the words of each piece between commas and joining words, known ones for what is typed."""
+    joining = set_of_words("wordings.joining")
+    pieces = ({*_split_words(piece)} - joining for piece in _JOINED.split(text))
+    return frozenset(
+        frozenset(one for word in piece for one in _find_known_words(word, known))
+        if known
+        else frozenset(piece)
+        for piece in pieces
+    )
 
 
-_JOINED = WordPattern(r"[,;] |,? «and» ")
+_JOINED = WordPattern(r"[,;] |,? (?:«and»|«choices.but») ")
 
 
 def _join_compounds(spoken: tuple[str, ...], known: frozenset[str]) -> tuple[str, ...]:
@@ -361,7 +370,21 @@ def _find_known_words(word: str, known: frozenset[str]) -> frozenset[str]:
         return frozenset({found})
     senses = [frozenset(_split_words(" ".join(said))) for said in list_senses(word)]
     told = next((sense for sense in senses if sense and sense <= known), None)
+    alike = _load_alike().get(word, frozenset()) & known
+    if told is None and len(alike) == 1:
+        return alike
     return told or next(filter(None, senses), frozenset({found}))
+
+
+@cache_words
+def _load_alike() -> dict[str, frozenset[str]]:
+    """Return what says nearly the same as a word, by the word: larger for *enlarged*."""
+    found: dict[str, set[str]] = {}
+    for table in list_tables("alike"):
+        for first, words in table.items():
+            for word in words:
+                found.setdefault(fold_word(word), set()).add(fold_word(first))
+    return {word: frozenset(same) for word, same in found.items()}
 
 
 def _find_known_word(word: str, known: frozenset[str]) -> str:

@@ -656,7 +656,7 @@ def _find_unit(text: str, start: int) -> tuple[str, int]:
         if any(map(str.isdigit, unit.replace("^2", "").replace("^3", ""))):
             continue
         try:
-            read_unit(unit)
+            read_unit(f"{unit[:-1]}-" if unit.endswith("⁻") else unit)
         except FormulaError:
             continue
         return unit, end

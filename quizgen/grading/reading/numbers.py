@@ -165,7 +165,9 @@ def _make_quotient_number(sign: str, top: str, bottom: str) -> ReadNumber:
     return ReadNumber(-value if sign else value, read_as, "fraction", lowest=lowest)
 
 
-_OF_DEGREES = re.compile(r"(?<![^\W\d_])(sin|cos|tan|cot)(?: ?\( ?| )([-+]?\d+(?:\.\d+)?) ?°(?: ?\))?")
+_OF_DEGREES = re.compile(
+    r"(?<![^\W\d_])(sin|cos|tan|cot)(?: ?\( ?| )([-+]?\d+(?:\.\d+)?) ?°(?: ?\))?"
+)
 """A function of an angle in degrees, ``cos(30°)``."""
 
 
