@@ -238,10 +238,7 @@ def _hint(
 ) -> Verdict:
     """Return a verdict that names swapped axes, signs, or which coordinate is wrong."""
     values = [number.value for number in numbers]
-    turned = [
-        cell for cell, key, other in zip(cells, keys, keys[::-1], strict=True) if key != other
-    ]
-    if not any(cell.credit for cell in turned) and all_match_target(spec, numbers, keys[::-1]):
+    if _are_swapped(spec, numbers, keys, cells):
         return wrong(read_as, "swapped")
     missed = [i for i, cell in enumerate(cells) if cell.credit < 1]
     note, fields = "coordinate", dict[str, object]()
@@ -252,6 +249,19 @@ def _hint(
     return verdict_by_share(
         _credit(keys, cells), read_as, note, names=_names(spec, missed), **fields
     )
+
+
+def _are_swapped(
+    spec: PointSpec, numbers: list[ReadNumber], keys: list[Value], cells: tuple[Verdict, ...]
+) -> bool:
+    """Return whether the coordinates stand the other way round, and none that moved is right."""
+    moved = [
+        cell
+        for cell, here, there in zip(cells, spec.values, spec.values[::-1], strict=True)
+        if str(here) != str(there)
+    ]
+    right = any(cell.credit for cell in moved)
+    return bool(moved) and not right and all_match_target(spec, numbers, keys[::-1])
 
 
 def _credit(keys: list[Value], cells: tuple[Verdict, ...]) -> Fraction:

@@ -874,7 +874,7 @@ class Statement:
         return 0 if states and head[0] not in known.verdicts else reach
 
     def _is_bare_denial(self, clause: _Clause) -> bool:
-        """Return whether a clause is a denial and a colon, *by no means: ...*, and no correction."""
+        """Return whether a clause is a denial and a colon, *by no means:*, and no correction."""
         texts = [self.tokens[at].text for at in clause.places]
         known, after = _vocabulary(), clause.places[-1] + 1
         return (

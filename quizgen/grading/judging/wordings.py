@@ -304,7 +304,7 @@ def _are_within(said: frozenset[frozenset[str]], pieces: frozenset[frozenset[str
 
 
 def _list_pieces(text: str, known: frozenset[str] = frozenset()) -> frozenset[frozenset[str]]:
-    """Return the words of each piece between commas and joining words, known ones for what is typed."""
+    """Return the words of each piece between commas and joining words; known ones, if some are."""
     joining = set_of_words("wordings.joining")
     pieces = ({*_split_words(piece)} - joining for piece in _JOINED.split(text))
     return frozenset(

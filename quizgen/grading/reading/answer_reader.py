@@ -163,7 +163,8 @@ def _load_around_words() -> _AroundWords:
             re.IGNORECASE,
         ),
         re.compile(
-            rf",? (?:(?:->|→|=>|⇒) )?(?:{listed['rounded']})(?: (?:{listed['onto']}))?:? (?=[-+−]?[.,]?\d)",
+            rf",? (?:(?:->|→|=>|⇒) )?(?:{listed['rounded']})(?: (?:{listed['onto']}))?:?"
+            r" (?=[-+−]?[.,]?\d)",
             re.IGNORECASE,
         ),
         re.compile(

@@ -58,9 +58,8 @@ def read_factor(typed: str) -> str:
     but in which direction is.
     """
     text = _DASH_BETWEEN.sub(" ", " ".join(typed.split()).strip(" .!").casefold())
-    if _HALF_AS.match(text):
-        return "1/2"
-    share = _list_shares().get(text) or _list_shares().get(_ONE_SHARE.sub("", text))
+    share = "1/2" if _HALF_AS.match(text) else ""
+    share = share or _list_shares().get(text) or _list_shares().get(_ONE_SHARE.sub("", text), "")
     if share:
         return share
     part = _PART_OF.fullmatch(text)
