@@ -41,12 +41,14 @@ def test_a_letter_is_free_or_has_a_value():
         Model(given={p: ""}, free=("q",), steps=(Step(q, p + 1), Step("r", q * p))).chain()
 
 
-def test_what_needs_a_number_says_so(tmp_path):
+@pytest.mark.parametrize("formula", ["len(factorint(n))", "nsolve(x**3 - n, x, 1)"])
+def test_what_needs_a_number_says_so(tmp_path, formula):
     (tmp_path / "odd.py").write_text(
-        "from sympy import symbols, factorint\nfrom quizgen.maths.model import Model, Step\n"
-        "n, s = symbols('n s')\nMODEL = Model(given={n: ''}, steps=(Step(s, len(factorint(n))),))\n"
+        "from sympy import *\nfrom quizgen.maths.model import Model, Step\n"
+        f"n, s, x = symbols('n s x')\nMODEL = Model(given={{n: ''}}, steps=(Step(s, {formula}),))\n"
     )
-    with pytest.raises(BankError, match=r"what is drawn is a letter here: docs/functions\.md"):
+    said = r"odd\.py:4: ValueError: \w.*what is drawn is a letter here: docs/functions\.md"
+    with pytest.raises(BankError, match=said):
         load_chain(tmp_path, "odd")
 
 
