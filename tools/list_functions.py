@@ -49,7 +49,9 @@ steps that are only checked.
 
 TAIL = """
 Under SymPy's names, too: {further}. Those of whole numbers are exact. What SymPy has no class for,
-as `gcd` or `isprime`, waits for the drawn numbers by itself.
+as `gcd` or `isprime`, waits for the drawn numbers by itself, and so do `numer`, `denom`, the
+`rank()` of a matrix up to 4 by 4 and `a == b`. What would say something else of letters than of
+numbers, as `rref()`, is refused with its line.
 
 Beside them a step may hold what SymPy works out when the solver is compiled: `diff`, `integrate`,
 `limit`, `Derivative`, `Integral`, `Limit`, `Subs`, `det`, `inv`, matrix products, `re`, `im`,

@@ -323,7 +323,9 @@ def _is_pure(source: bytes) -> bool:
     return True
 
 
-_NEEDS_NUMBER = re.compile("is not an integer|symbols to int|truth value of Relational|float\\b")
+_NEEDS_NUMBER = re.compile(
+    r"is not an integer|symbols to int|truth value of Relational|float\b|and numerical function"
+)
 """What SymPy and Python say where they need a number and get a name."""
 _CODES = (
     (ModuleNotFoundError, "QG134"),
@@ -358,7 +360,7 @@ def author_error_context(file: Path) -> Iterator[None]:
         number = number or (lines[-1] if lines else None)
         known = next((code for kind, code in _CODES if isinstance(error, kind)), "QG133")
         rule = getattr(error, "rule", "") or known
-        what = f"{type(error).__name__}: {error}"
+        what = f"{type(error).__name__}: {' '.join(str(error).split())}"
         if _NEEDS_NUMBER.search(what):
             what += " (what is drawn is a letter here: docs/functions.md has what waits for it)"
         raise BankError(what, rule=rule, file=file, line=number or 0) from error

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from fractions import Fraction
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 import msgspec
 from flint import arb, fmpq
 
-from quizgen.core.errors import FormulaError
+from quizgen.core.errors import FormulaError, MathError
 from quizgen.grading.judging.algebraic_equality import prove_equal
 from quizgen.grading.judging.numeric import choose_reading
 from quizgen.grading.judging.sampled_equality import (
@@ -41,10 +42,12 @@ from quizgen.kinds.forms import split_sides, typeset_key
 from quizgen.kinds.work import count_once
 from quizgen.locale import translate
 from quizgen.maths.constants import parse_exact
+from quizgen.maths.derivative import differentiate
 from quizgen.maths.notation import FormulaReadError, format_tree, pretty
 from quizgen.maths.numbers import format_for_key
+from quizgen.maths.operators import BINDERS
 from quizgen.maths.tidy import tidy_formula
-from quizgen.maths.tree import Expr, Num, names_in, substitute
+from quizgen.maths.tree import Expr, Num, names_in, operators_in, substitute
 from quizgen.maths.values import Value
 
 if TYPE_CHECKING:
@@ -102,14 +105,14 @@ class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
         ValueError
             If a domain is none.
         """
-        used = names_in(parse_authored(self.value, tuple(self.symbols)))
+        used = names_in(_parse_key(self.value, self.symbols))
         unknown = used - self.symbols.keys()
         if unknown:
             raise FormulaError(f"value uses undeclared names {', '.join(sorted(unknown))}")
         for name, domain in self.symbols.items():
             _check_domain(name, domain)
         for trap in self.traps.values():
-            parse_authored(trap, tuple(self.symbols))
+            _parse_key(trap, self.symbols)
         if not used:
             parse_exact(self.value)
 
@@ -170,7 +173,7 @@ class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as it can be typed."""
-        key = format_tree(parse_authored(self.value, tuple(self.symbols)))
+        key = format_tree(_parse_key(self.value, self.symbols))
         return self._name_calls(pretty.format_formula(key))
 
 
@@ -185,6 +188,15 @@ def _match_call(call: str) -> re.Pattern[str]:
     signs = "".join(found["of"].split())
     inside = r"\s*".join("[-−–]" if sign in "-−" else re.escape(sign) for sign in signs)
     return re.compile(rf"(?<![^\W\d_]){found['name']}\s*_?\s*[({{\[]\s*{inside}\s*[)}}\]]")
+
+
+_BOUND = re.compile(rf"\b(?:{'|'.join(sorted(BINDERS))})\((\w+),")
+"""What finds the name that a sum or an integral runs over."""
+
+
+def _parse_key(formula: str, symbols: Iterable[str]) -> Expr:
+    """Return the tree of a key or a mistake, which may have sums and integrals in it."""
+    return parse_authored(formula, (*symbols, *_BOUND.findall(formula)))
 
 
 def _check_domain(name: str, domain: Domain) -> None:
@@ -209,9 +221,12 @@ def _judge(spec: ExpressionSpec, tree: Expr, options: GradingOptions) -> Verdict
     It is ambiguous where neither sampling nor, if it is allowed, SymPy can decide.
     """
     read_as = pretty.format_formula(format_tree(tree))
-    key = parse_authored(spec.value, tuple(spec.symbols))
+    key = _parse_key(spec.value, spec.symbols)
     if tree == key:
         return _judge_form(spec, tree, correct(read_as, ground="proved"))
+    if spec.up_to == "constant" and "integral" in operators_in(key):
+        with suppress(MathError):  # without a rule, values of the integral decide
+            return _judge_rates(spec, key, tree)
     found = compare_by_sampling(key, tree, spec.symbols)
     if _is_equal_enough(spec, found):
         return _judge_form(spec, tree, correct(read_as, ground=found.ground, points=found.points))
@@ -223,6 +238,23 @@ def _judge(spec: ExpressionSpec, tree: Expr, options: GradingOptions) -> Verdict
         ground = "proved" if prove_equal(key, tree) else found.ground
         return _judge_form(spec, tree, correct(read_as, ground=ground, points=found.points))
     return _wrong(spec, tree, found, read_as)
+
+
+def _judge_rates(spec: ExpressionSpec, key: Expr, tree: Expr) -> Verdict:
+    """Return the verdict on an antiderivative by its derivative, which the key's integral has.
+
+    Raises ``MathError`` if there is no rule for one of them.
+    """
+    read_as = pretty.format_formula(format_tree(tree))
+    names = names_in(key) | names_in(tree)
+    rates = [(differentiate(key, name), differentiate(tree, name)) for name in sorted(names)]
+    found = [are_equal(*pair, spec.symbols) for pair in rates]
+    if None in found:
+        return ambiguous("undecided", read_as)
+    if all(found):
+        return _judge_form(spec, tree, correct(read_as, ground="sampled"))
+    differs = SamplingResult(equal=False, points=1, ground="differs")
+    return _wrong(spec, tree, differs, read_as)
 
 
 def _is_equal_enough(spec: ExpressionSpec, found: SamplingResult) -> bool:
@@ -261,7 +293,7 @@ def _settle_equality(
 def _wrong(spec: ExpressionSpec, tree: Expr, found: SamplingResult, read_as: str) -> Verdict:
     """Return the wrong verdict: a known mistake, a factor or offset, or a name that is missing."""
     for name, trap in spec.traps.items():
-        mistake = parse_authored(trap, tuple(spec.symbols))
+        mistake = _parse_key(trap, spec.symbols)
         related = bool(spec.up_to) and _is_equal_enough(
             spec, compare_by_sampling(mistake, tree, spec.symbols)
         )
@@ -279,7 +311,7 @@ def _wrong(spec: ExpressionSpec, tree: Expr, found: SamplingResult, read_as: str
 
 def _missing(spec: ExpressionSpec, tree: Expr) -> str:
     """Return the note for a quantity of the key that does not occur at all, else an empty text."""
-    key = names_in(parse_authored(spec.value, tuple(spec.symbols)))
+    key = names_in(_parse_key(spec.value, spec.symbols))
     return "name-missing" if key - names_in(tree) else ""
 
 
@@ -336,7 +368,7 @@ def _put_numbers_in(part: PartContext, calls: Mapping[str, str], text: str) -> s
 
 def explain_key(spec: ExpressionSpec, _lang: str) -> TextOrInlines:
     """Return the formula as it is written by hand."""
-    key = parse_authored(spec.value, tuple(spec.symbols))
+    key = _parse_key(spec.value, spec.symbols)
     if not spec.calls:
         return typeset_key(key)
     from quizgen.typeset import lay_out

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from quizgen.core.errors import MathError
 from quizgen.maths.tidy import tidy_formula
-from quizgen.maths.tree import Call, Expr, Num, Sym, make_number, names_in
+from quizgen.maths.tree import Call, Expr, Num, Sym, make_number, names_in, substitute
 
 _ZERO, _ONE = Num(Fraction(0)), Num(Fraction(1))
 
@@ -83,6 +83,8 @@ def _differentiate(expr: Expr, name: str) -> Expr:
             found = Call("div", (Call("sub", tuple(parts)), _square(below)))
         case Call(op="pow", args=(base, exponent)):
             found = _differentiate_power(base, exponent, name)
+        case Call(op="integral", args=(Sym(bound), low, high, inner)):
+            found = _differentiate_integral((bound, inner), (low, high), name)
         case Call(args=(inner,)) if expr.op in _RULES:
             found = Call("mul", (_RULES[expr.op](inner), _differentiate(inner, name)))
         case _:
@@ -106,3 +108,18 @@ def _differentiate_power(base: Expr, exponent: Expr, name: str) -> Call:
         return Call("mul", (Call("pow", (base, exponent)), rate))
     lower = Call("pow", (base, Call("sub", (exponent, _ONE))))
     return Call("mul", (exponent, lower, _differentiate(base, name)))
+
+
+def _differentiate_integral(of: tuple[str, Expr], ends: tuple[Expr, Expr], name: str) -> Call:
+    """Return the derivative of an integral by what stands in its bounds: the fundamental theorem.
+
+    ``of`` is what is integrated, after the name that varies. Raises ``MathError`` if the other
+    name stands in it, too.
+    """
+    bound, inner = of
+    if name in names_in(inner) - {bound}:
+        raise MathError("no rule for the derivative of an integral over another name")
+    low, high = (
+        Call("mul", (substitute(inner, {bound: end}), _differentiate(end, name))) for end in ends
+    )
+    return Call("sub", (high, low))

@@ -97,7 +97,7 @@ class FormResolver:
         names = self.find_forms(written)
         with sympy.evaluate(True), suppress(*_UNWORKABLE):
             uses = _Uses(self.trees, self.free)
-            whole = uses.put_in(_make_strict(written), names)
+            whole = uses.put_in(_take_ends(_make_strict(written)), names)
             whole = whole.doit() if whole.has(sympy.MatrixBase, MatrixExpr) else whole
             if whole.has(sympy.Integral, sympy.Sum, sympy.Product):
                 return Recipe(from_sympy(whole), tuple(uses.found))
@@ -263,6 +263,28 @@ class _Uses:
         moved = {n: arg for n, arg in ends.items() if getattr(arg, "name", "") != n}
         at = tuple((n, from_sympy(arg)) for n, arg in moved.items())
         return self._add(one.func.__name__, by=by, at=at)
+
+
+def _take_ends(written: sympy.Basic) -> sympy.Basic:
+    """Return an expression in which integrals have bounds, and limits are values at the place.
+
+    So they follow from any form: an antiderivative is right up to a constant, and where a form has
+    no value at the place of a limit, nothing follows from it. Raises ``BankError`` for a limit at
+    infinity.
+    """
+    if not hasattr(written, "atoms"):
+        return written
+    place = {}
+    for one in written.atoms(sympy.Limit):
+        if one.args[2].is_infinite:
+            raise BankError("a limit at infinity of a form is not known")
+        place[one] = one.args[0].subs(one.args[1], one.args[2])
+    for one in written.atoms(sympy.Integral):
+        if [len(limit) for limit in one.limits] == [1]:
+            (name,) = one.limits[0]
+            along = sympy.Symbol("along")
+            place[one] = sympy.Integral(one.function.subs(name, along), (along, 1, name))
+    return written.xreplace(place)
 
 
 def _convert_structure(whole: sympy.Basic, convert: Callable[[sympy.Basic], Expr]) -> Expr | None:

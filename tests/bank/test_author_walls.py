@@ -41,12 +41,14 @@ def test_a_letter_is_free_or_has_a_value():
         Model(given={p: ""}, free=("q",), steps=(Step(q, p + 1), Step("r", q * p))).chain()
 
 
-def test_what_needs_a_number_says_so(tmp_path):
+@pytest.mark.parametrize("formula", ["len(factorint(n))", "nsolve(x**3 - n, x, 1)"])
+def test_what_needs_a_number_says_so(tmp_path, formula):
     (tmp_path / "odd.py").write_text(
-        "from sympy import symbols, factorint\nfrom quizgen.maths.model import Model, Step\n"
-        "n, s = symbols('n s')\nMODEL = Model(given={n: ''}, steps=(Step(s, len(factorint(n))),))\n"
+        "from sympy import *\nfrom quizgen.maths.model import Model, Step\n"
+        f"n, s, x = symbols('n s x')\nMODEL = Model(given={{n: ''}}, steps=(Step(s, {formula}),))\n"
     )
-    with pytest.raises(BankError, match=r"what is drawn is a letter here: docs/functions\.md"):
+    said = r"odd\.py:4: ValueError: \w.*what is drawn is a letter here: docs/functions\.md"
+    with pytest.raises(BankError, match=said):
         load_chain(tmp_path, "odd")
 
 
@@ -78,6 +80,10 @@ a, x = symbols("a x")
 n = symbols("n", integer=True, positive=True)
 MODEL = Model(given={a: ""}, free=("n",), steps=(Step("b", integrate(a*x*sin(n*x), (x, -pi, pi))/pi),))
 """, "a = { pick = [2] }", ['kind = "expression", of = "b", symbols = { n = "whole" }']),
+        "partial-sum": ("""
+a, n, k, x = symbols("a n k x")
+MODEL = Model(given={a: "", n: ""}, free=("x",), steps=(Step("s", Sum((a*x)**k/factorial(k), (k, 0, n))),))
+""", "a = { pick = [2] }\\nn = { pick = [2] }", ['kind = "expression", of = "s"']),
         "confidence": ("""
 m, w = symbols("m w")
 MODEL = Model(given={m: "", w: ""}, steps=(Step("C", Interval(m - w*sqrt(2), m + w*sqrt(2))),))
@@ -89,7 +95,7 @@ MODEL = Model(given={m: "", w: ""}, steps=(Step("C", Interval(m - w*sqrt(2), m +
 @pytest.mark.parametrize(("name", "typed"), [
     ("payments", "300"), ("pair", "sum = 4 mol/L; difference = 2 mol/L"),
     ("heat", "42 J/(kg K)"), ("heat", "42 J/kgK"), ("heat", "42 J/(kg·K)"), ("heat", "0.042 kJ/(kgK)"),
-    ("gas", "4.99 kJ"), ("sawtooth", "4(-1)^(n+1)/n"), ("sawtooth", "-4cos(n pi)/n"),
+    ("gas", "4.99 kJ"), ("partial-sum", "1 + 2x + 2x^2"), ("sawtooth", "4(-1)^(n+1)/n"), ("sawtooth", "-4cos(n pi)/n"),
     ("confidence", "[7.17; 12.83]"), ("confidence", "(7.17, 12.83)"), ("confidence", "7.17 - 12.83"),
 ])  # fmt: skip
 def test_right_answers_are_right(bank, name, typed):

@@ -27,6 +27,20 @@ MODEL = Model(
 """, "a = { pick = [2] }\\nc = { pick = [3] }", [
         'kind = "expression", of = "f"', 'kind = "expression", of = "df"', 'kind = "number", of = "D", sigfigs = 4', 'kind = "expression", of = "t"', 'kind = "number", of = "A", sigfigs = 4',
     ]),
+    "area": ("""
+a, x = symbols("a x")
+f = Function("f")(x)
+MODEL = Model(
+    given={a: ""},
+    free=("x",),
+    steps=(
+        Step(f, sin(a*x)/x), Step("L", limit(f, x, 0)), Step("F", integrate(x*f, x)),
+        Step("S", Sum(f, (x, 1, 3))),
+    ),
+)
+""", "a = { pick = [2] }", [
+        'kind = "expression", of = "f"', 'kind = "number", of = "L", sigfigs = 4', 'kind = "expression", of = "F", up_to = "constant"', 'kind = "number", of = "S", sigfigs = 4',
+    ]),
     "line": ("""
 a, b, m, x = symbols("a b m x")
 MODEL = Model(
@@ -67,6 +81,11 @@ CARRIED = [
     ("slope", {"a": "x^3 + 3x"}, "d", "30(x-3) + 36"),
     ("slope", {"a": "4x^3"}, "e", "81"),
     ("slope", {"a": "sin(x)"}, "b", "cos x"),
+    ("area", {"a": "x^2 + 1"}, "b", "1"),  # a limit is the value where there is one
+    ("area", {"a": "sin(3x)/x"}, "c", "-cos(3x)/3"),  # and an antiderivative has that derivative
+    ("area", {"a": "x^2 + 1"}, "c", "x^4/4 + x^2/2 + C"),
+    ("area", {"a": "1/(x-1)"}, "c", "x + ln(x-1) - 5"),
+    ("area", {"a": "sin(3x)/x"}, "d", "0.1388"),
     ("line", {"a": "5"}, "b", "5x + 6"),  # a number into a formula
     ("line", {"a": "1/3"}, "b", "x/3 + 6"),
     ("line", {"a": "1"}, "c", "[1; 3]"),  # into an interval
@@ -79,6 +98,10 @@ WRONG = [
     ("slope", {"a": "x^3 + 3x"}, "b", "3x^2"),
     ("slope", {"a": "7"}, "b", "0"),  # nothing was left to do
     ("slope", {"a": "6x^3 + 9"}, "b", "12"),
+    ("area", {"a": "sin(3x)/x"}, "b", "3"),  # no value there: nothing follows
+    ("area", {"a": "sin(3x)/x"}, "c", "sin(3x)/x"),
+    ("area", {"a": "sin(3x)/x"}, "c", "cos(3x)/3"),
+    ("area", {"a": "x^2 + 1"}, "c", "x^4/4 + x^2/2 + x"),
     ("line", {"a": "5"}, "b", "4x + 6"),
     ("line", {"a": "0"}, "b", "6"),
     ("matrix", {"a": "[4, 1, 2; 3, 1, 2]"}, "b", "1"),  # another size

@@ -128,7 +128,8 @@ def _recompute_from_forms(context: QuestionContext, own: Values, target: str) ->
     if target in own or not wrong.keys() - own.keys() & chain.required_steps(target):
         return []
     try:
-        steps = [ChainStep(name, expr) for name, expr in wrong.items()]
+        needed = chain.required_steps(target)
+        steps = [ChainStep(name, expr) for name, expr in wrong.items() if name in needed]
         result = chain.solve_with_steps(steps, solved)[target]
         same = result == 0 or are_nearly_equal(result, solved[target])
     except (MathError, KeyError, TypeError):
@@ -180,7 +181,9 @@ def judge_carried_form(
     if names[0] in context.forms or any(value == 0 for value in own.values()):
         return None
     try:
-        values = chain.solve_with_steps([ChainStep(n, e) for n, e in wrong.items()], solved)
+        needed = {step for name in names_in(form) for step in chain.required_steps(name)}
+        steps = [ChainStep(name, expr) for name, expr in wrong.items() if name in needed]
+        values = chain.solve_with_steps(steps, solved)
         bound = chain.bind_form(form, values, wrong)
         carried = None if _says_less(bound, right, chain) else spec.replace_key(bound)
         verdict = carried and judge_answer(carried, typed, options)
