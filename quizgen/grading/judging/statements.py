@@ -892,7 +892,7 @@ class Statement:
         return 0 if states and head[0] not in known.verdicts else reach
 
     def _is_bare_denial(self, clause: _Clause) -> bool:
-        """Return whether a clause is a denial and a colon, *by no means: ...*, and no correction."""
+        """Return whether a clause is a denial before a colon, and no correction."""
         texts = [self.tokens[at].text for at in clause.places]
         known, after = _vocabulary(), clause.places[-1] + 1
         return (
@@ -1017,9 +1017,7 @@ class Statement:
 
     def _is_called_equal(self, place: int) -> bool:
         """Return whether differences are what is equal: *equally visible differences*."""
-        return any(
-            ("sameness", 1) in self._scales_at(at) for at in range(max(place - 2, 0), place)
-        )
+        return any(("sameness", 1) in self._scales_at(at) for at in range(max(place - 2, 0), place))
 
     def _is_said_of_another(
         self, evidence: Evidence, mine: Collection[Words], others: Collection[Words]
