@@ -145,6 +145,7 @@ class _Vocabulary:
     degrees: frozenset[str]
     halves: frozenset[tuple[str, ...]]
     between: frozenset[str]
+    when: frozenset[str]
     causes: frozenset[tuple[str, ...]]
     fillers: frozenset[str]
     grammar: frozenset[str]
@@ -199,6 +200,7 @@ def _vocabulary() -> _Vocabulary:
         words("degrees"),
         frozenset(rows("halves")),
         words("between"),
+        words("when"),
         frozenset(rows("causes")),
         words("fillers"),
         frozenset().union(*map(words, (*_OF_REMARKS, "helpers", "breaks"))),
@@ -744,6 +746,22 @@ class Statement:
             for token in before[near[-1] :]
         )
 
+    def _stands_between(self, place: int) -> bool:
+        """Return whether a word is one of two between which something is: nothing is said of it."""
+        known = _vocabulary()
+        texts = [token.text for token in self.tokens[max(place - APART, 0) : place + APART]]
+        if known.between.isdisjoint(texts):
+            return False
+        joins = [place - 1, *range(place + 1, min(place + APART, len(self.tokens)))]
+        return any(
+            at > 0
+            and self.tokens[at].text in known.breaks
+            and self._is_between(at)
+            and (at < place or any(token.text in known.between
+                                   for token in self.tokens[max(at - APART, 0) : place]))
+            for at in joins
+        )  # fmt: skip
+
     def _ends_sentence(self, place: int) -> bool:
         """Return whether a stop ends a sentence and no abbreviation or number."""
         token = self.tokens[place]
@@ -874,7 +892,7 @@ class Statement:
         return 0 if states and head[0] not in known.verdicts else reach
 
     def _is_bare_denial(self, clause: _Clause) -> bool:
-        """Return whether a clause is a denial and a colon, *by no means:*, and no correction."""
+        """Return whether a clause is a denial before a colon, and no correction."""
         texts = [self.tokens[at].text for at in clause.places]
         known, after = _vocabulary(), clause.places[-1] + 1
         return (
@@ -994,7 +1012,12 @@ class Statement:
             for at in clause.places
             if at not in evidence.places
             for name, sign in self._scales_at(at)
+            if name != "sameness" or not self._is_called_equal(at)
         )
+
+    def _is_called_equal(self, place: int) -> bool:
+        """Return whether differences are what is equal: *equally visible differences*."""
+        return any(("sameness", 1) in self._scales_at(at) for at in range(max(place - 2, 0), place))
 
     def _is_said_of_another(
         self, evidence: Evidence, mine: Collection[Words], others: Collection[Words]
@@ -1006,6 +1029,8 @@ class Statement:
         if not others:
             return False
         for index in {self._clause_of(at) for at in evidence.places}:
+            if self._is_framed_by_another(index, mine, others):
+                return True
             for clause in reversed(self.clauses[: index + 1]):
                 if clause.sentence != self.clauses[index].sentence:
                     break
@@ -1016,6 +1041,27 @@ class Statement:
                 if self._names(clause, others):
                     return True
         return False
+
+    def _is_framed_by_another(
+        self, index: int, mine: Collection[Words], others: Collection[Words]
+    ) -> bool:
+        """Return whether a clause stands under the name of another thing, or its condition.
+
+        *Printer: additive RGB*, and *it is infinite if the thing is far away*.
+        """
+        sentence = self.clauses[index].sentence
+        for clause in reversed(self.clauses[:index]):
+            if clause.sentence != sentence:
+                break
+            after = clause.places[-1] + 1
+            if after < len(self.tokens) and self.tokens[after].text == ":":
+                return self._names(clause, others) and not self._names(clause, mine)
+        if index + 1 == len(self.clauses) or self._names(self.clauses[index], mine):
+            return False
+        clause = self.clauses[index + 1]
+        begins = self.tokens[clause.places[0]].text in _vocabulary().when
+        named = begins and clause.sentence == sentence and self._names(clause, others)
+        return named and not self._names(clause, mine)
 
     def _gives_other_cause(
         self, clause: _Clause, mine: Collection[Words], others: Collection[Words]
@@ -1120,13 +1166,18 @@ class Statement:
         return found
 
     def _leaves_only(self, window: Sequence[_Clause], places: tuple[int, ...]) -> bool:
-        """Return whether a word such as *only* is all that a clause has of what is needed.
+        """Return whether a word such as *only* or *every* is all that is needed of a clause.
 
         *Only the cones work and the rods switch off* does not say *only the rods*.
         """
         alone = list_equal_words("only")
         return any(
-            bool(mine) and all(self.tokens[at].text in alone for at in mine)
+            bool(mine)
+            and all(
+                self.tokens[at].text in alone
+                or any(name == "totality" for name, _ in self._scales_at(at))
+                for at in mine
+            )
             for clause in window
             for mine in [[at for at in places if at in clause.places]]
         )
@@ -1220,7 +1271,9 @@ class Statement:
             )
             found = rows or find_scales(word, slips=not self._words.has_own(word))
             before = tuple(token.text for token in self.tokens[max(place - 2, 0) : place])
-            if before in _vocabulary().halves:  # *half as wide* is narrower
+            if self._stands_between(place):
+                found = ()
+            elif before in _vocabulary().halves:  # *half as wide* is narrower
                 found = tuple((name, -1) for name, _ in found if name == "amount")
             self._scales[place] = found
         return self._scales[place]
