@@ -12,6 +12,7 @@ import msgspec
 from quizgen.core.errors import FormulaError
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.likeness import list_ordinals, read_count
+from quizgen.grading.judging.option_formulas import find_same_formula
 from quizgen.grading.judging.spelling import fold_word
 from quizgen.grading.judging.wordings import (
     find_wording_in,
@@ -243,9 +244,10 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
         read = read or _read_positions(spec, typed)
     except FormulaReadError:
         meant = _find_worded_options(spec, typed) or _find_named_option(spec, typed)
-        if not meant:
+        same = 0 if meant else find_same_formula(typed, spec.choices())
+        if not (meant or same):
             raise
-        return meant
+        return meant or [same]
     return (spec.kind == "choice" and len(read) > 1 and _find_worded_options(spec, typed)) or read
 
 
@@ -658,7 +660,7 @@ def read_truth(text: str) -> int:
     found = _find_truth_word(word) or _find_denied_truth(word)
     if found:
         return found
-    if _ALTERNATIVE.search(word):
+    if _ALTERNATIVE.search(_TRUTH_FIRST.sub(r"\g<first>", word)):
         return 0
     denied = _DENIED_FIRST.fullmatch(word)
     told = _find_denied_truth(denied["head"]) if denied else 0

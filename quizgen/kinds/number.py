@@ -146,7 +146,7 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
         if self.counts:
             return ""
         share = read_share(typed) if 0 < parse_exact(self.value) < 1 else ""
-        factor = share or read_factor(typed)
+        factor = share or read_factor(typed.rpartition("=")[2])
         return "" if self.percent and "/" not in factor else factor
 
     @property

@@ -93,7 +93,9 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
     if len(hits) != 1:
         return 0
     wanted = listed[hits[0] - 1]
-    more = meant - wanted - set_of_words("choices.but")
+    more = meant - wanted
+    if len(meant & wanted) >= FEWEST_PIECES:  # ``equal but new``, not ``anything but green``
+        more -= set_of_words("choices.but")
     counted = any(list_number_words().get(word, 0) > 1 or word.isdecimal() for word in more)
     if (
         counted

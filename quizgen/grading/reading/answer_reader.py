@@ -59,6 +59,8 @@ _CODE = re.compile(r"\s*`{1,3}([^`]+)`{1,3}\s*")
 _QUOTES = '“”„‟«»"‹›'
 _PAIRED = re.compile(r"^(['‘’‚`´]+)(.+?)['‘’`´]+$")
 _UNDERSCORED = re.compile(r"(?<=\d)_(?=\d{3}(?!\d))")
+_CLASSIFIED = WordPattern(r"(?<=\d) ?-?«classifiers-in-latin»(?=[ ;,.]|$)")
+"""What Bangla puts behind a counted number, in Latin letters: ``9 ta pixel``."""
 _TYPED_NUMBER = re.compile(r"(?:(?:np|numpy)\.)?(?:u?int|float)(?:8|16|32|64)?\(([^()]+)\)")
 """A number as Python prints one with its type: ``np.uint8(50)``."""
 _TICK = re.compile(r"(?<=\S) ?[✓✔]+$")
@@ -228,6 +230,9 @@ def list_plainer_texts(
         if form == "values":
             yield from _list_plainer_values(spelt, names, ranges=ranges)
         else:
+            in_signs = write_in_signs(spelt)
+            if in_signs != spelt:
+                yield in_signs
             yield from list_meant_values(spelt)
             yield from _single_answer(spelt, form)
             yield from _find_conclusion(spelt)
@@ -460,7 +465,8 @@ def _write_words_as_numbers(text: str) -> str:
     """Return ``minus sixteen`` as ``-16``, ``27 min 26 s`` as ``1646 s``."""
     for name in ("digits", "blanks"):
         text = SourceText.of(text).substitute(*REWRITES[name]).text
-    text = _load_around_words().rounded.sub(" ≈ ", _UNDERSCORED.sub("", text))
+    text = _CLASSIFIED.sub("", _UNDERSCORED.sub("", text))
+    text = _load_around_words().rounded.sub(" ≈ ", text)
     typed_array = _TYPED_NUMBER.fullmatch(text)
     text = typed_array[1] if typed_array else text
     text = write_spoken_value(_write_share_of_unit(text))
