@@ -42,6 +42,8 @@ SHORTEST = 4
 
 APART = 4
 """Words after *between* in which its *and* stands."""
+LAW = 2
+"""Amounts of two things, one of which makes the other: it holds as well if both are turned."""
 LONE = 3
 """Most things that an example says, its denial counted, which is about a single one."""
 
@@ -147,6 +149,8 @@ class _Vocabulary:
     between: frozenset[str]
     when: frozenset[str]
     causes: frozenset[tuple[str, ...]]
+    correlatives: frozenset[str]
+    excess: frozenset[str]
     fillers: frozenset[str]
     grammar: frozenset[str]
     scales: Mapping[str, tuple[Scale, ...]]
@@ -202,6 +206,8 @@ def _vocabulary() -> _Vocabulary:
         words("between"),
         words("when"),
         frozenset(rows("causes")),
+        words("correlatives"),
+        words("excess"),
         words("fillers"),
         frozenset().union(*map(words, (*_OF_REMARKS, "helpers", "breaks"))),
         _group_scales(ends),
@@ -392,6 +398,24 @@ class Example:
         """Names of the scales that it has a word of."""
         items = itertools.chain.from_iterable(self.steps)
         return frozenset(name for item in items for name, _ in item.scales)
+
+    @cached_property
+    def is_law(self) -> bool:
+        """Whether it says how the amounts of two things go together, and no more.
+
+        *A smaller hole makes a smaller disc*: turned once it is wrong, turned twice it is right.
+        """
+        items = self.steps[0] if len(self.steps) == 1 and self.meaning == "said" else ()
+        scales = [item.scales for item in items if item.scales]
+        joined = any(token.text in _vocabulary().breaks for token in split_tokens(self.text))
+        return not joined and len(scales) == len(items) - len(scales) == LAW and all(
+            any(name == "amount" for name, _ in one) for one in scales
+        )  # fmt: skip
+
+    @cached_property
+    def has_excess(self) -> bool:
+        """Whether it finds fault: *too few bits* are no contradiction of the cure, *more bits*."""
+        return any(token.text in _vocabulary().excess for token in split_tokens(self.text))
 
     @property
     def is_bare(self) -> bool:
@@ -666,6 +690,8 @@ class Evidence:
         The tokens that were.
     turned : bool
         Whether an opposite word alone made it a denial.
+    law : bool
+        Whether its clauses say each one end of how two amounts go together.
     """
 
     meaning: Meaning
@@ -675,6 +701,7 @@ class Evidence:
     size: int
     places: tuple[int, ...]
     turned: bool = False
+    law: bool = False
 
     @property
     def is_loose(self) -> bool:
@@ -792,7 +819,28 @@ class Statement:
             return not token.tied and after is not None and not after.tied
         if token.text in "()":
             return not self._is_call(place)
-        return token.text in _PAUSE
+        return token.text in _PAUSE and not self._is_correlative(place)
+
+    def _is_correlative(self, place: int) -> bool:
+        """Return whether a comma joins two amounts: *the smaller this, the smaller that*."""
+        known, begin = _vocabulary().correlatives, place - 1
+        if place + 2 >= len(self.tokens) or self.tokens[place + 1].text not in known:
+            return False
+        while begin > 0 and self.tokens[begin - 1].text not in _PAUSE | _STOP:
+            begin -= 1
+        return all(
+            any(
+                self.tokens[at].text in known and self._begins_amount(at)
+                for at in range(first, last)
+            )
+            for first, last in ((begin, place - 1), (place + 1, place + 2))
+        )
+
+    def _begins_amount(self, place: int) -> bool:
+        """Return whether an amount stands behind a word: next to it if that says little."""
+        reach = 1 if self.tokens[place].text in _vocabulary().fillers else APART
+        after = self.tokens[place + 1 : place + 1 + reach]
+        return any(name == "amount" for token in after for name, _ in find_scales(token.text))
 
     def _is_call(self, place: int) -> bool:
         """Return whether a bracket stands around the argument of a function, as in ``V(λ)``."""
@@ -1131,14 +1179,9 @@ class Statement:
                 if example.meaning == "denied" and not self._are_joined(window, example):
                     continue
                 fit = self._fit(items, [at for c in window for at in c.places], example)
-                if (
-                    fit
-                    and fit[0] > 0
-                    and not self._spread_denial(window, fit[1], example)
-                    and not self._leaves_only(window, fit[1])
-                ):
+                for one in self._join(window, first, fit, example) if fit else ():
                     single |= set(range(first, last + 1))
-                    yield Evidence(example.meaning, example.text, first, last, example.size, fit[1])
+                    yield one
 
     def _are_joined(self, window: Sequence[_Clause], example: Example) -> bool:
         """Return whether words such as *and* join clauses, and no sign; so in the example, too."""
@@ -1164,6 +1207,31 @@ class Statement:
             completed = [*before, *clause.places] if follows and alone else clause.places
             found.append(found[-1] if clause.corrects and found else completed)
         return found
+
+    def _join(
+        self,
+        window: Sequence[_Clause],
+        first: int,
+        fit: tuple[int, tuple[int, ...]],
+        example: Example,
+    ) -> Iterator[Evidence]:
+        """Yield what several clauses say together, if nothing but one end of a law turns it."""
+        sign, places = fit
+        if self._spread_denial(window, places, example) or self._leaves_only(window, places):
+            return
+        law = bool(sign) and example.is_law and self._has_amount_each(window)
+        if sign > 0 or law:
+            meaning: Meaning = example.meaning if sign > 0 else "denied"
+            last = first + len(window) - 1
+            yield Evidence(meaning, example.text, first, last, example.size, places, law=law)
+
+    def _has_amount_each(self, window: Sequence[_Clause]) -> bool:
+        """Return whether two clauses have one amount each, as *if this grows, that shrinks*."""
+        return len(window) == LAW and all(
+            sum(any(name == "amount" for name, _ in self._scales_at(at)) for at in clause.places)
+            == 1
+            for clause in window
+        )
 
     def _leaves_only(self, window: Sequence[_Clause], places: tuple[int, ...]) -> bool:
         """Return whether a word such as *only* or *every* is all that is needed of a clause.
@@ -1215,6 +1283,7 @@ class Statement:
                 rows = sided or rows
             taken += _nearest_row(rows, taken)
         sign, flips = 1, 0
+        law = example.is_law
         for item in items:
             if not item.scales:
                 continue
@@ -1224,7 +1293,8 @@ class Statement:
             flips += end < 0
             sign *= end
             taken += [place]
-        return (0 if flips > 1 or exchanged else sign), tuple(sorted(taken))
+        unsure = exchanged or (flips > 1 and not (law and flips == LAW))
+        return (0 if unsure else sign), tuple(sorted(taken))
 
     @cached_property
     def _compared_tokens(self) -> set[int]:
@@ -1367,6 +1437,7 @@ class Statement:
             or denied is None
             or (contrast and clause.sentence == self.clauses[index - 1].sentence)
             or self._has_degree(clause, places, example)
+            or (turned and self._is_excess(places) != example.has_excess)
         )
         if unsure or (sign < 0 and (denied or example.denied)):  # *not narrower* is not *wider*
             meaning: Meaning = "open"
@@ -1425,6 +1496,15 @@ class Statement:
                 and all(self.tokens[one].text in fillers for one in range(places[-1] + 1, at)))
             for at in heads
         )  # fmt: skip
+
+    def _is_excess(self, places: tuple[int, ...]) -> bool:
+        """Return whether one of some words is an amount that is *too* large or small."""
+        return any(
+            at > 0
+            and self.tokens[at - 1].text in _vocabulary().excess
+            and any(name == "amount" for name, _ in self._scales_at(at))
+            for at in places
+        )
 
     def _has_degree(self, clause: _Clause, places: tuple[int, ...], example: Example) -> bool:
         """Return whether a word of low degree, such as ``less``, stands before one that is meant.
@@ -1500,7 +1580,8 @@ def _rank(evidence: Evidence) -> tuple[bool, bool, int, bool, int]:
     That is one clause before several, what is sure, then how much was recognised, then what is said
     in its own words, then the careful meaning.
     """
-    spread, unsure = evidence.last > evidence.first, evidence.meaning == "open"
+    spread = evidence.last > evidence.first and not evidence.law
+    unsure = evidence.meaning == "open"
     return (spread, unsure, -evidence.size, evidence.turned, _ORDER[evidence.meaning])
 
 
