@@ -1097,19 +1097,31 @@ class Statement:
 
         *Printer: additive RGB*, and *it is infinite if the thing is far away*.
         """
-        sentence = self.clauses[index].sentence
-        for clause in reversed(self.clauses[:index]):
-            if clause.sentence != sentence:
-                break
-            after = clause.places[-1] + 1
-            if after < len(self.tokens) and self.tokens[after].text == ":":
-                return self._names(clause, others) and not self._names(clause, mine)
+        heading = self._find_heading(index, (*mine, *others))
+        if heading is not None:
+            return self._names(heading, others) and not self._names(heading, mine)
         if index + 1 == len(self.clauses) or self._names(self.clauses[index], mine):
             return False
         clause = self.clauses[index + 1]
         begins = self.tokens[clause.places[0]].text in _vocabulary().when
-        named = begins and clause.sentence == sentence and self._names(clause, others)
+        together = clause.sentence == self.clauses[index].sentence
+        named = begins and together and self._names(clause, others)
         return named and not self._names(clause, mine)
+
+    def _find_heading(self, index: int, things: Collection[Words]) -> _Clause | None:
+        """Return what stands before the last colon ahead that names one of some things.
+
+        It holds to the end of its line or up to a full stop, over semicolons: *CCD: streaks; high
+        power*.
+        """
+        for clause in reversed(self.clauses[:index]):
+            after = clause.places[-1] + 1
+            sign = self.tokens[after].text if after < len(self.tokens) else ""
+            if sign in _STOP - {";"}:
+                return None
+            if sign == ":" and self._names(clause, things):
+                return clause
+        return None
 
     def _gives_other_cause(
         self, clause: _Clause, mine: Collection[Words], others: Collection[Words]
