@@ -596,7 +596,16 @@ def _read_item(
     for row, scale in _vocabulary().phrases:
         if _has_row(tokens, place, row):
             return _Item(scales=(scale,)), len(row)
-    return _read_word(tokens[place].text), 1
+    item = _read_word(tokens[place].text)
+    before = tuple(token.text for token in tokens[max(place - 2, 0) : place])
+    if item and item.scales and before in _vocabulary().halves:
+        item = _Item(scales=_scale_down(item.scales))
+    return item, 1
+
+
+def _scale_down(scales: Iterable[Scale]) -> tuple[Scale, ...]:
+    """Return what is said of an amount that is only a part of another: less."""
+    return tuple((name, -1) for name, _ in scales if name == "amount")
 
 
 def _read_word(word: str) -> _Item | None:
@@ -1356,7 +1365,7 @@ class Statement:
             if self._stands_between(place):
                 found = ()
             elif before in _vocabulary().halves:  # *half as wide* is narrower
-                found = tuple((name, -1) for name, _ in found if name == "amount")
+                found = _scale_down(found)
             self._scales[place] = found
         return self._scales[place]
 
