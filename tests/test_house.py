@@ -42,7 +42,7 @@ CALLED_FROM_OUTSIDE = {"list_commands", "get_command", "format_commands", "get_c
     "get_canvas_width_height", "points_to_pixels", "option_image_nocomposite",
     "option_scale_image", "draw_gouraud_triangles", "is_defined", "precompile_layouts",
     "path_stats", "read_as_sympy", "read_matrix_as_sympy", "visit_Import", "visit_Expr", "visit_FunctionDef",
-    "visit_AnnAssign", "visit_With", "visit_Call", "visit_Module",
+    "visit_AnnAssign", "visit_With", "visit_Call", "visit_Module", "visit_Compare", "visit_Attribute",
 }  # fmt: skip
 """Methods that click looks for in a group, Python in a loader, Jinja in a loader or a cache, ``ast`` in a
 transformer, and matplotlib in an axis or a renderer; ``is_defined`` is for those who compute with our arrays, ``precompile_layouts`` for building a wheel, ``read_as_sympy`` for authors of ``check.py``."""

@@ -360,7 +360,10 @@ def author_error_context(file: Path) -> Iterator[None]:
         number = number or (lines[-1] if lines else None)
         known = next((code for kind, code in _CODES if isinstance(error, kind)), "QG133")
         rule = getattr(error, "rule", "") or known
-        what = f"{type(error).__name__}: {' '.join(str(error).split())}"
+        said = " ".join(str(error).split())
+        if isinstance(error, RecursionError):  # what Python was doing there is chance
+            said = said.partition(" while ")[0].partition(" in ")[0]
+        what = f"{type(error).__name__}: {said}"
         if _NEEDS_NUMBER.search(what):
             what += " (what is drawn is a letter here: docs/functions.md has what waits for it)"
         raise BankError(what, rule=rule, file=file, line=number or 0) from error
