@@ -192,9 +192,8 @@ class RubricSpec(WordSpec, kw_only=True, frozen=True):
         if sum(one.worth for one in self.criteria.values()) < parse_written_number(self.full):
             raise ValueError("the criteria have fewer points than the part")
 
-    @property
-    def needed(self) -> int:
-        """How many criteria make up the points of the part: fewer where the best count."""
+    def count_needed_criteria(self) -> int:
+        """Return how many criteria make up the points of the part: fewer where the best count."""
         worth = sorted((one.worth for one in self.criteria.values()), reverse=True)
         full = parse_written_number(self.full)
         return next(n for n in range(1, len(worth) + 1) if sum(worth[:n]) >= full)
@@ -415,7 +414,7 @@ def ask(part: PartContext) -> AskedPart[RubricSpec]:
         synonyms=part.synonyms(used),
     )
     model = spec.show_in(next(iter(spec.ideas), ""))
-    said = len(model.split()) * spec.needed // len(criteria)
+    said = len(model.split()) * spec.count_needed_criteria() // len(criteria)
     lines = -(-said // WORDS_A_LINE)
     return AskedPart(
         spec,
@@ -435,7 +434,7 @@ FEW = 2
 
 def input_hints(spec: RubricSpec, lang: str) -> tuple[str, ...]:
     """Return the sentence on own words, as short as the criteria allow."""
-    count = spec.needed
+    count = spec.count_needed_criteria()
     return (
         translate(lang, "ask.rubric")
         if count <= FEW

@@ -47,13 +47,15 @@ _WORD = r"(?:[a-zäöüß-]{3,}|[\u0980-\u09ff]{3,})"
 _LAST_WORDS = re.compile(
     rf"((?:{_WORD} ){{0,2}}(?:[a-zäöüß-]{{4,}}|[\u0980-\u09ff]{{3,}})) \(?$", re.IGNORECASE
 )
+_LETTER = r"(?:[^\W\d_]|[\u0980-\u09ff])"
+"""A letter, or a sign of Bangla that belongs to one."""
 _WORDS_BEHIND = WordPattern(
     r" «behind-name» (?P<words>(?:[^\W\d_]+ ){0,2}[^\W\d_]{3,})(?=[,.:;?]|$| «and»)", re.IGNORECASE
 )
 """Of what a value is: ``$r$ in the dark part``."""
 _ASKED_NOUN = WordPattern(
     r"(?<![^\W\d_])«how-many» (?!«percent»|«factors.signs»)(?:«of» (?:«articles» )?)?"
-    r"(?P<both>(?P<noun>[^\W\d_]{3,})(?: [^\W\d_]{3,})?)",
+    rf"(?P<both>(?P<noun>{_LETTER}{{3,}})(?: {_LETTER}{{3,}})?)",
     re.IGNORECASE,
 )
 """What is counted: ``how many photons of the scene``."""
