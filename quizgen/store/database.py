@@ -35,6 +35,7 @@ from quizgen.store.schema import LEARNER
 
 if TYPE_CHECKING:
     from sqlalchemy.dialects.postgresql import Insert as PostgreSQL
+    from sqlalchemy.pool import ConnectionPoolEntry
 
 ADDRESSES = "an address is sqlite:///FILE or postgresql+psycopg://USER:PASSWORD@HOST/DATABASE"
 DRIVERS = {"sqlite", "sqlite+pysqlite", "postgresql", "postgresql+psycopg"}
@@ -68,6 +69,8 @@ class Database:
             require_extra("postgres", "a database of PostgreSQL")
         self._reader = _create_engine_for(url)
         self._writer = self._reader.execution_options(**{_WRITES: True})
+        self._is_closed = False
+        event.listen(self._reader, "checkin", self._close_late_connection)
         self._waiting: list[_Write] = []
         self._joining, self._turn = threading.Lock(), threading.Lock()
         with contextlib.ExitStack() as failing:
@@ -82,8 +85,17 @@ class Database:
             failing.pop_all()
 
     def close(self) -> None:
-        """Close all connections."""
+        """Close all connections, each that a thread still uses as soon as it is given back."""
+        self._is_closed = True
         self._reader.dispose()
+
+    def _close_late_connection(self, _raw: object, record: ConnectionPoolEntry) -> None:
+        """Close a connection that comes back after all others were closed.
+
+        A server that ends cancels its tasks, but not the threads that they wait for.
+        """
+        if self._is_closed:
+            record.invalidate()
 
     def reading(self) -> Connection:
         """Return a connection for reading, to be closed by ``with``.

@@ -12,6 +12,7 @@ from concurrent.futures import ThreadPoolExecutor
 from hashlib import sha256
 from pathlib import Path
 
+import psycopg
 import pytest
 from alembic import command
 from alembic.autogenerate import compare_metadata
@@ -124,6 +125,19 @@ def test_every_release_comes_up_with_what_it_keeps(database, release):
         assert store.stock.count_papers("trial", "v") == 1
     store.save_attempt(store.start_attempt(7, QuestionRef("rgb-to-hsv", "4"), {}))
     store.close()
+
+
+def test_a_connection_in_use_is_closed_when_it_is_given_back(database):
+    store = Store(database())
+    with store.database.reading() as before:
+        raw = before.connection.dbapi_connection
+        store.close()
+        raw.cursor().execute("SELECT 1")
+    with store.database.reading() as after:
+        late = after.connection.dbapi_connection
+    for one in (raw, late):
+        with pytest.raises((sqlite3.ProgrammingError, psycopg.OperationalError), match="closed"):
+            one.cursor().execute("SELECT 1")
 
 
 @pytest.mark.parametrize(("version", "said"), [("9999", "newer version"), ("0004", "too old")])
