@@ -837,6 +837,10 @@ def _is_same_unit(typed: str, listed: str) -> bool:
 _VALUE = re.compile(r"(?P<number>-?\d+(?:[.,]\d+)?) ?(?P<unit>[^\d\s.,;:()\[\]-]*)")
 
 
+_MARK = re.compile(r"(?:[^\W\d_]|[\u0980-\u09ff])+|\d+|[^\s,;.&+()/|:!\[\]{}\"'*_।॥“”«»]")
+"""A letter, a number, or a word in any script as a whole, which a message quotes."""
+
+
 def _read_positions(spec: ChoiceSpec, typed: str) -> list[int]:
     """Return the positions of typed letters or numbers, each once.
 
@@ -847,7 +851,7 @@ def _read_positions(spec: ChoiceSpec, typed: str) -> list[int]:
     """
     source = normalise_typed(re.sub(r"[\r\n]+", ",", typed.strip()), keep_x=True, longest=1000)
     text = PICTURES.sub(" ", source.text).translate(BANGLA_LETTERS)
-    marks = re.findall(r"[A-Za-z]+|\d+|[^\s,;.&+()/|:!\[\]{}\"'*_।॥“”«»]", _FILLERS.sub(" ", text))
+    marks = _MARK.findall(_FILLERS.sub(" ", text))
     found = [position for mark in marks for position in _parse_mark(spec, mark)]
     if not found or _UNFINISHED.search(text):
         raise FormulaReadError("option-expected", 1, safe_echo(typed), _list_letters(spec))

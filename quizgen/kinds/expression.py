@@ -57,6 +57,7 @@ EXAMPLE = "(a+b)^2/2"
 """A formula as it is typed, and no answer to any question."""
 CONSTANT = "C"
 """The constant of integration, as it may be typed."""
+_CONSTANT_LAST = re.compile(r"[-+−–] ?(?P<name>[ckK]|[cC]_?\{?[0-9]\}?|[Cc]onst\.?)\s*$")
 _ZERO = Num(Fraction(0))
 
 
@@ -127,6 +128,8 @@ class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
         free = self.up_to == "constant" and CONSTANT not in self.symbols
         names = (*self.symbols, CONSTANT) if free else self.symbols
         emphatic = "factorial" not in self.value
+        if free:
+            typed = self._name_constant(typed)
         for name, call in self.calls.items():
             typed = _match_call(call).sub(name, typed)
         verdicts = [
@@ -143,6 +146,8 @@ class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
     def read_form(self, typed: str, options: GradingOptions, /) -> Expr:
         """Return the last side of a typed formula; errors as ``judge``."""
         names = (*self.symbols, CONSTANT) if self.up_to == "constant" else tuple(self.symbols)
+        if CONSTANT in names and CONSTANT not in self.symbols:
+            typed = self._name_constant(typed)
         side = split_sides(typed, names)[-1]
         tree = read_formula(side, names, options.decimal).tree
         return tree if CONSTANT in self.symbols else substitute(tree, {CONSTANT: _ZERO})
@@ -151,6 +156,13 @@ class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
         """Return the specification with another formula as its key, and without mistakes."""
         symbols = dict.fromkeys(names_in(form), "real") | self.symbols
         return msgspec.structs.replace(self, value=format_tree(form), traps={}, symbols=symbols)
+
+    def _name_constant(self, typed: str) -> str:
+        """Return a formula with ``C`` for another usual name of the constant that is added last."""
+        match = _CONSTANT_LAST.search(typed)
+        if match is None or match["name"] in self.symbols:
+            return typed
+        return f"{typed[: match.start('name')]}{CONSTANT}"
 
     def _name_calls(self, text: str) -> str:
         """Return a formula for people with the calls of functions as they are written."""

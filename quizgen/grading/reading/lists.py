@@ -16,7 +16,11 @@ BRACKETS = {"(": ")", "[": "]", "{": "}", "<": ">"}
 _HARD = re.compile(r"[;|\n]")
 _COMMA = re.compile(r",")
 _COMMA_BLANK = re.compile(r", +")
-_COMMA_DECIMAL = re.compile(rf"(?:{NAME} ?[=:≈] ?)?[-+−]?\d+(?:,\d+)?(?: ?[^\W\d][^\d,]*|%)?")
+_COMMA_DECIMAL = re.compile(
+    rf"(?:{NAME} ?[=:≈] ?|[^\W\d_]{{3,}}(?: [^\W\d_]{{2,}}){{0,2}}[ =:]+)?"
+    r"[-+−]?\d+(?:,\d+)?(?: ?[^\W\d][^\d,]*|%)?"
+)
+"""An item between commas with blanks, whose own comma is decimal: ``near 3,84 m``."""
 _SLASH = re.compile(r" / ")
 _BLANK_BEFORE = re.compile(r" +(?=[,;|])")
 _JOINING = WordPattern(r"[,;]? (?:«and»|&) ")
