@@ -24,6 +24,7 @@ import msgspec
 
 from quizgen.core.errors import QuizgenError
 from quizgen.core.trusted_files import find_trusted_file
+from quizgen.grading.reading.answer_reader import write_in_signs
 from quizgen.grading.reading.formulas import read_formula
 from quizgen.grading.reading.matrices import split_matrix
 from quizgen.maths.notation import FormulaReadError
@@ -225,7 +226,8 @@ def read_as_sympy(typed: str, symbols: str | Iterable[str], *, log: str = "") ->
     from quizgen.grading.judging.sympy_equality import to_sympy
 
     names = symbols.split() if isinstance(symbols, str) else list(symbols)
-    found = to_sympy(read_formula(typed, names, log=log).tree, frozenset(), real=False)
+    written = write_in_signs(typed)
+    found = to_sympy(read_formula(written, names, log=log).tree, frozenset(), real=False)
     if found.has(nan, zoo, oo):
         raise FormulaReadError("no-value", 1, typed)
     return found

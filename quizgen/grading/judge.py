@@ -121,7 +121,7 @@ def _judge_as_written(spec: AnySpec, typed: str, options: GradingOptions) -> Ver
 def _judge_plainer(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict | None:
     """Return the verdict on the answer without what stands around it; None if that is no help."""
     names, ranges = spec.value_names(), spec.may_be_range
-    typed = prove_groups(typed) if spec.written_as == "values" else typed
+    typed = prove_groups(typed) if spec.written_as in {"values", "number", "quantity"} else typed
     for text in list_plainer_texts(typed, spec.written_as, names, ranges=ranges):
         plainer = _judge_text(spec, text, options)
         if plainer.verdict == WRONG and is_cut_short(typed):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import Any, ClassVar
@@ -65,11 +66,16 @@ _DENIED = WordPattern(
 )
 """A word that is denied: what is not true is false, and the other way round."""
 _TRUTH_FIRST = WordPattern(
-    r"(?P<first>[^\s,;:.(]+)(?!(?<=\d)[.,]\d)"
-    r"(?:[,;:.] ?| (?=\()| ?[-–—] | (?=«choices.reasons» ))(?P<rest>.+)"
+    r"(?P<first>[^\s,;:.(।]+)(?!(?<=\d)[.,]\d)"
+    r"(?:[,;:.।] ?| (?=\()| ?[-–—] | (?=«choices.reasons» ))(?P<rest>.+)"
     r"|(?P<alone>«choices.alone»)(?! «choices.no-reason» ) (?P<more>\S+ \S.*)"
 )
 """*Yes* or *false* with a reason behind it; ``0.5`` is neither."""
+_TRUTH_CORRECTED = WordPattern(
+    r"(?P<head>[^\s,;:.(…]+)(?:[,;:.… ]+(?:«choices.correcting»)|[,;:.…]+ ?«choices.false»)"
+    r"[,;:.… ]+(?P<rest>.+)"
+)
+"""A verdict taken back for another one: ``false... no, true``."""
 _DENIED_FIRST = re.compile(r"(?P<head>[^,;:.()]+)(?:[,;:.] | \(| [-–—] )(?P<rest>.+)")
 """*Not true* with a reason behind it."""
 _SHORT_DENIAL = WordPattern(r"«choices.subjects» «choices.helpers»(?P<no>(?: «choices.not»|n't))?")
@@ -353,8 +359,10 @@ def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:
     if reasoned:
         return reasoned
     text = typed.strip(_AROUND)
-    places = _read_places(text, len(spec.choices()))
-    if places and not _find_wording(spec, text):
+    head, _, remark = text.partition(",")
+    places = _read_places(head.strip(), len(spec.choices()))
+    told = _find_wording(spec, remark or text) if places else 0
+    if places and told in {0, *places} and not says_otherwise(remark):
         return places
     if len(text) == 1 and (initial := _find_initial(spec, text)):
         return initial
@@ -483,8 +491,10 @@ def _find_quoted_options(spec: ChoiceSpec, typed: str) -> list[int]:
 
 
 def _fold_signs(text: str) -> str:
-    """Return a text with one sign for minus, and for what parts the numbers of a point."""
-    return re.sub(r" ?([=,;]) ?", r"\1", text.replace("−", "-")).replace(",", ";")
+    """Return a text with one sign for each relation and separator, and without subscripts."""
+    plain = unicodedata.normalize("NFKC", text.replace("−", "-")).replace("_", "")
+    plain = plain.replace(">=", "≥").replace("<=", "≤").replace("==", "=")
+    return re.sub(r" ?([=<>≤≥,;]) ?", r"\1", plain).replace(",", ";")
 
 
 def _read_set_apart(spec: ChoiceSpec, typed: str) -> list[int]:
@@ -660,6 +670,9 @@ def read_truth(text: str) -> int:
     found = _find_truth_word(word) or _find_denied_truth(word)
     if found:
         return found
+    corrected = _TRUTH_CORRECTED.fullmatch(word)
+    if corrected and _find_truth_word(corrected["head"]):
+        return read_truth(corrected["rest"])
     if _ALTERNATIVE.search(_TRUTH_FIRST.sub(r"\g<first>", word)):
         return 0
     denied = _DENIED_FIRST.fullmatch(word)
@@ -682,16 +695,17 @@ def read_truth(text: str) -> int:
 
 def _names_other_truth(rest: str, first: int) -> bool:
     """Return whether a word behind *true* or *false* says the other one."""
-    found = {
-        _find_truth_word(word) for word in re.findall(r"(?:[^\W\d_]|[\u0980-\u09ff]){3,}", rest)
-    } - {0}
+    idle = set_of_words("choices.no-verdict")
+    words = re.findall(r"(?:[^\W\d_]|[\u0980-\u09ff]){3,}", rest)
+    found = {_find_truth_word(word) for word in words if word not in idle} - {0}
     return bool(found - {first})
 
 
 def _find_denied_truth(text: str) -> int:
     """Return 2 for *not true*, 1 for *not false*; 0 for what is not denied."""
     match = _DENIED.fullmatch(text)
-    denied = _find_truth_word(match["word"] or match["before"]) if match else 0
+    said = (match["word"] or match["before"]) if match else ""
+    denied = 0 if said in set_of_words("choices.yes") else _find_truth_word(said)
     return 3 - denied if denied else 0
 
 
@@ -850,7 +864,7 @@ def _read_positions(spec: ChoiceSpec, typed: str) -> list[int]:
         If there is none, one does not exist, or the text ends in a sign that wants another.
     """
     source = normalise_typed(re.sub(r"[\r\n]+", ",", typed.strip()), keep_x=True, longest=1000)
-    text = PICTURES.sub(" ", source.text).translate(BANGLA_LETTERS)
+    text = PICTURES.sub(" ", source.text)
     marks = _MARK.findall(_FILLERS.sub(" ", text))
     found = [position for mark in marks for position in _parse_mark(spec, mark)]
     if not found or _UNFINISHED.search(text):
@@ -868,7 +882,8 @@ def _parse_mark(spec: ChoiceSpec, mark: str) -> list[int]:
     FormulaReadError
         If there is no such option.
     """
-    positions = [int(mark)] if mark.isdecimal() else [LETTERS.find(c.upper()) + 1 for c in mark]
+    letters = mark.translate(BANGLA_LETTERS).upper()
+    positions = [int(mark)] if mark.isdecimal() else [LETTERS.find(c) + 1 for c in letters]
     if not all(1 <= position <= len(spec.choices()) for position in positions):
         raise FormulaReadError("option-expected", 1, mark, _list_letters(spec))
     return positions

@@ -35,6 +35,7 @@ from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.derivations import DerivationReader, DerivedLine, LineReadError
 from quizgen.grading.reading.formulas import parse_authored
+from quizgen.grading.reading.units import listed_unit
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import (
     FULL,
@@ -113,6 +114,7 @@ class AuthoredDerivation(AuthoredAnswer, kw_only=True, tag="derivation", frozen=
     given: Given = ()
     traps: dict[str, Forms] = msgspec.field(default_factory=dict)
     reasons: Reasons = msgspec.field(default_factory=dict)
+    unit: str = ""
 
     def find_problems(self) -> Iterator[FieldProblem]:
         """Yield what is wrong with the lines and names apart from their formulas."""
@@ -142,7 +144,7 @@ class DerivationSpec(WordSpec, kw_only=True, frozen=True):
 
     ``symbols`` = {name: "real", "positive" or [low, high]}; ``let`` says what each derived one is;
     ``where`` = conditions; ``given`` = what may be written down without points; ``reasons`` = words
-    that a person judges.
+    that a person judges. ``unit`` is what numbers stand in, if one may be typed behind them.
     """
 
     written_as: ClassVar[AnswerForm] = "verbatim"
@@ -154,6 +156,7 @@ class DerivationSpec(WordSpec, kw_only=True, frozen=True):
     given: list[str] = msgspec.field(default_factory=list)
     traps: dict[str, list[str]] = msgspec.field(default_factory=dict)
     reasons: dict[str, KeyReason] = msgspec.field(default_factory=dict)
+    unit: str = ""
 
     def validate(self) -> None:
         """Check that every line is a relation in declared names, and earns something.
@@ -169,6 +172,8 @@ class DerivationSpec(WordSpec, kw_only=True, frozen=True):
             raise ValueError("lines: at least the goal is needed, each with a form")
         if any(points < 0 for points in self._list_points()) or not self.total:
             raise ValueError("points: none may be below 0, and not all 0")
+        if self.unit:
+            listed_unit(self.unit)
         for text in self.let.values():
             self._parse(text)
         for text in (*self.where, *self.given):
@@ -228,7 +233,7 @@ class DerivationSpec(WordSpec, kw_only=True, frozen=True):
 
     def reader(self, decimal: str) -> DerivationReader:
         """Return what reads typed lines, with a decimal sign."""
-        return DerivationReader(self.symbols, decimal, self.goal.left)
+        return DerivationReader(self.symbols, decimal, self.goal.left, self.unit)
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
         """Return the verdict on typed lines: each of them a cell, the first fault as its note.
@@ -280,7 +285,7 @@ class DerivationSpec(WordSpec, kw_only=True, frozen=True):
         lines: list[DerivedLine] = []
         unread: defaultdict[int, list[Verdict]] = defaultdict(list)
         for row in typed.splitlines():
-            reader = DerivationReader(self.symbols, options.decimal, self.goal.left)
+            reader = self.reader(options.decimal)
             try:
                 lines = reader.read("\n".join([*rows, row]))
             except LineReadError as error:
@@ -393,6 +398,7 @@ def ask(part: PartContext) -> AskedPart[DerivationSpec]:
         reasons={name: KeyReason(points, part.accepted_words(name))
                  for name, points in answer.reasons.items()},
         why=part.reasons([(name, name) for name in lines]),
+        unit=answer.unit,
     )  # fmt: skip
     traps = {name: texts for name, texts in spec.traps.items() if _is_mistake(spec, texts)}
     notes = part.misconception_notes(traps) if traps else {}

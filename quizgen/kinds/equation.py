@@ -18,7 +18,7 @@ from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.formulas import parse_authored, read_formula
 from quizgen.grading.spec import WordSpec
-from quizgen.grading.verdict import Verdict, ambiguous, correct, wrong
+from quizgen.grading.verdict import HALF, Verdict, ambiguous, correct, partial, wrong
 from quizgen.kinds.asking import make_spec, misconception_specs
 from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredAnswer, PartContext
 from quizgen.kinds.forms import require_form, typeset_key
@@ -68,10 +68,15 @@ class EquationSpec(WordSpec, kw_only=True, frozen=True):
             return ambiguous("undecided", read_as)
         if same:
             return correct(read_as, ground="sampled")
-        for name, text in self.traps.items():
-            if self._is_same(text, equation):
-                return wrong(read_as, f"trap:{name}")
-        return wrong(read_as)
+        note = next(
+            (f"trap:{name}" for name, text in self.traps.items() if self._is_same(text, equation)),
+            "",
+        )
+        if equation.op in _OTHER_BORDER and self._is_same(
+            self.value, Call(_OTHER_BORDER[equation.op], equation.args)
+        ):
+            return partial(HALF, read_as, note or "border")
+        return wrong(read_as, note)
 
     def _is_same(self, key: str, equation: Call) -> bool | None:
         """Whether both have the same solutions, by a constant factor; None if undecided."""
@@ -114,6 +119,8 @@ _OPERATORS = {
     ">=": "ge",
     "≥": "ge",
 }
+_OTHER_BORDER = {"lt": "le", "le": "lt", "gt": "ge", "ge": "gt"}
+"""The same inequality with its border, or without it: half of the points."""
 RELATIONS = ("eq", "lt", "le", "gt", "ge")
 
 

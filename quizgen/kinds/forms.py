@@ -338,11 +338,13 @@ def read_any_entry(piece: str | SourceText, decimal: str, *, as_complex: bool) -
 
 
 _UNIT_FIRST = re.compile(r"(?<![^\W\d_])([ij]) ?(?=\d)")
+_UNIT_APART = re.compile(r"(?:(?<=/\d)|(?<=/ \d)|(?<=\d\))) +(?=[ij](?![^\W_]))")
+"""A blank before the unit: it is no part of the denominator."""
 
 
 def separate_unit(typed: str) -> str:
-    """Return ``j40``, as engineers write it, as a product."""
-    return _UNIT_FIRST.sub(r"\1*", typed)
+    """Return ``j40``, as engineers write it, and ``√3/2 i`` as products."""
+    return _UNIT_APART.sub("*", _UNIT_FIRST.sub(r"\1*", typed))
 
 
 def write_constant(value: Value | ComplexValue) -> Expr:

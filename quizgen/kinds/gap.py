@@ -172,6 +172,8 @@ _PAIR = re.compile(r"(?<![-–—\d])(\d{1,2})\s*[-–—]\s*(\d{1,2})(?![-–�
 LONG = 6
 """Letters of a term that may take an ending."""
 _ENDS = " \t\r\n,;="
+_GAS_AND_SOLID = dict.fromkeys(map(ord, "↑↓"))
+"""Signs behind a substance that leaves a solution; no term has them."""
 _QUOTES = "[]{}“”„‘’«»\"'"
 _JOINED = WordPattern(r"\s«and»$")
 _MEASURE = re.compile(r"\d+ ?[a-zµ]{2,3}")
@@ -194,7 +196,7 @@ def _read_words(typed: str, gaps: list[list[str]]) -> list[str]:
     if not typed.strip():
         raise FormulaReadError("no-answer", 1)
     refuse_invisible(SourceText.of(typed.strip("\u200e\u200f\ufeff \r\n")), "\r\n\t" + _JOINERS)
-    typed = typed.strip()
+    typed = typed.translate(_GAS_AND_SOLID).strip()
     if " " in typed or ":" in typed:
         typed = _strip_gap_word(ANSWER.sub("", typed), gaps)
     count = len(gaps)
@@ -316,6 +318,9 @@ def _drop_around(word: str, known: list[str]) -> str:
     terms = {*map(fold_word, known)}
     if apart and {fold_word(apart["out"]), fold_word(apart["kept"])} <= terms:
         word = apart["kept"]
+    called = _CALLED.fullmatch(word)
+    if called and fold_word(called["term"]) in terms and not _holds_a_term(called["head"], known):
+        word = word if is_denied(called["head"]) else called["term"]
     return _drop_remark(_drop_reason(_translate_word(word, known), known), known)
 
 
@@ -407,6 +412,8 @@ def _drop_reason(word: str, terms: list[str]) -> str:
     return next((one for one in (plain, nearly) if one != word and fold_word(one) in known), word)
 
 
+_CALLED = WordPattern(r"(?P<head>[^,;:=]+?)(?: «is»:? | ?[:=] ?)(?P<term>[^,;:=]+)", re.IGNORECASE)
+"""A term behind what it is of, ``the code is SN``."""
 _NOT_BUT = WordPattern(r"«choices.not» (?P<out>.+?),? «choices.but» (?P<kept>.+)", re.IGNORECASE)
 _REASON = WordPattern(r"[,;.(]? ?(?<!\w)«choices.because»(?!\w).+", re.IGNORECASE | re.DOTALL)
 _NEARLY = WordPattern(r"^\(?(?:«nearly»|«about»)\)? ", re.IGNORECASE)

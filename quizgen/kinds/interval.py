@@ -75,7 +75,7 @@ class IntervalSpec(NumericSpec, kw_only=True, frozen=True):
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
         """Return the verdict on a typed interval: bounds first, then brackets.
 
-        One wrong bracket costs half, two cost three quarters.
+        One wrong bracket costs half, two cost three quarters, also where the mistake has a name.
 
         Raises
         ------
@@ -86,10 +86,18 @@ class IntervalSpec(NumericSpec, kw_only=True, frozen=True):
         if self.brackets:
             typed = _RANGE.sub(r"[\1; \2]", typed) if _RANGE.fullmatch(typed) else typed
         pieces, read_as = read_union(typed, options.decimal)
+        keys, _ = read_union(self.value, "point")
         for name, text in self.traps.items():
             if self._is_same_union(pieces, read_union(str(text), "point")[0]):
-                return wrong(read_as, f"trap:{name}")
-        keys, _ = read_union(self.value, "point")
+                share = self._judge_union(pieces, keys, read_as).credit
+                note = f"trap:{name}"
+                return partial(share, read_as, note) if 0 < share < 1 else wrong(read_as, note)
+        return self._judge_union(pieces, keys, read_as)
+
+    def _judge_union(
+        self, pieces: list[IntervalValue], keys: list[IntervalValue], read_as: str
+    ) -> Verdict:
+        """Return the verdict on a union of intervals, whatever mistakes are known."""
         if len(pieces) == len(keys) == 1:
             return self._judge_single(pieces[0], keys[0], read_as)
         if self._is_same_union(pieces, keys):
@@ -174,7 +182,9 @@ _CHAIN = re.compile(
 
 
 # Without the blanks around it: those would be tried from each of many blanks in a row.
-_JOINED = WordPattern(r"∪|\\cup\b|(?<!\w)(?:«or»|union|[Uu])(?!\w)|∨")
+_JOINED = WordPattern(
+    r"(?<=[\])\[}]) ?«and» ?(?=[\[\](])|∪|\\cup\b|(?<!\w)(?:«or»|union|[Uu])(?!\w)|∨"
+)
 _EMPTY = frozenset({"{}", "∅", "{ }", "empty", "leer"})
 EMPTY = "{}"
 """How a union of no intervals is written."""

@@ -141,7 +141,7 @@ class MatchSpec(WordSpec, kw_only=True, frozen=True):
         if len(typed) > 1000:
             raise FormulaReadError("too-long", 1001, "1000")
         try:
-            found = _read_pairs(self, typed)
+            found = _read_whole_lefts(self, typed) or _read_pairs(self, typed)
         except FormulaReadError as error:
             found = {} if error.code == "used-twice" else _read_otherwise(self, typed)
             if not found:
@@ -211,6 +211,25 @@ def _read_pairs(spec: MatchSpec, typed: str) -> dict[str, str]:
     if not found:
         raise FormulaReadError("pairs-expected", 1, safe_echo(typed))
     return found
+
+
+def _read_whole_lefts(spec: MatchSpec, typed: str) -> dict[str, str]:
+    """Return the pairs of ``curve 1: e^x, curve 2: |x|``: left sides in full; else none."""
+    lefts = {
+        fold_word(said[label]): label
+        for said in (spec.words, *spec.said)
+        for label in spec.pairs
+        if label in said
+    }
+    found: dict[str, str] = {}
+    for piece in _COMMAS.split(typed.strip(" .")):
+        head, sign, words = piece.partition(":")
+        left = lefts.get(fold_word(head), "") if sign else ""
+        right = _find_side(spec, words.strip(), _list_targets(spec)) if left else ""
+        if not right or left in found:
+            return {}
+        found[left] = right
+    return found if spec.allows_reuse() or len({*found.values()}) == len(found) else {}
 
 
 def _read_otherwise(spec: MatchSpec, typed: str) -> dict[str, str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 from typing import TYPE_CHECKING, ClassVar
 
@@ -92,7 +93,10 @@ class MatrixSpec(EntriesSpec, kw_only=True, frozen=True):
         """Return typed rows of values, and the echo; errors as ``judge``."""
         known = (self.entries, *self.traps.values())
         as_complex = any(isinstance(entry, list) for rows in known for row in rows for entry in row)
-        rows, read_as = _read_matrix(typed, options.decimal, as_complex=as_complex)
+        row = _find_row_of_decimals(typed) if len(self.entries) == 1 else ""
+        rows, read_as = _read_matrix(row or typed, options.decimal, as_complex=as_complex)
+        if row and len(rows[0]) != len(self.entries[0]):
+            rows, read_as = _read_matrix(typed, options.decimal, as_complex=as_complex)
         return [[scale_entry(value, scale) for value in row] for row in rows], read_as
 
     def read_form(self, typed: str, options: GradingOptions, /) -> Expr | None:
@@ -126,6 +130,15 @@ class MatrixSpec(EntriesSpec, kw_only=True, frozen=True):
 def build_matrix(entries: Entries) -> Expr:
     """Return rows of a key as a tree."""
     return Call("matrix", tuple(Call("row", tuple(map(parse_entry, row))) for row in entries))
+
+
+_ROW_OF_DECIMALS = re.compile(r"[-+−]?\d+(?:,\d+)?(?: ?; ?[-+−]?\d+(?:,\d+)?)+")
+
+
+def _find_row_of_decimals(typed: str) -> str:
+    """Return ``(-4,65; -10,5)`` with ``&`` between its entries; empty for anything else."""
+    text = drop_name(typed).strip(" ()[]")
+    return text.replace(";", "&") if _ROW_OF_DECIMALS.fullmatch(text) else ""
 
 
 def _read_matrix(typed: str, decimal: str, *, as_complex: bool) -> tuple[Rows, str]:

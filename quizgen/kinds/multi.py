@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from quizgen.kinds.asking import hint, say_on_paper
 from quizgen.kinds.choice import AuthoredChoice, ChoiceSpec, ask_options
 from quizgen.kinds.contract import AnswerKind, AskedPart, InputControl, PartContext
 from quizgen.kinds.work import count_listed
+from quizgen.locale import translate
 
 
 class AuthoredMulti(AuthoredChoice, tag="multi", frozen=True):
@@ -19,6 +19,10 @@ def ask(part: PartContext) -> AskedPart[ChoiceSpec]:
     return ask_options(part, InputControl("many", lines=0))
 
 
-KIND = AnswerKind(AuthoredMulti, ChoiceSpec, ask, hint("ask.multi"),
-                  paper_hints=say_on_paper("ask.multi"), verb="tick",
+def say_rule(spec: ChoiceSpec, lang: str) -> tuple[str, ...]:
+    """Return that all right options are wanted, and what a wrong one costs."""
+    return (translate(lang, "ask.multi_cancels" if spec.negative else "ask.multi"),)
+
+
+KIND = AnswerKind(AuthoredMulti, ChoiceSpec, ask, say_rule, paper_hints=say_rule, verb="tick",
                   work=count_listed("tick", "options"))  # fmt: skip

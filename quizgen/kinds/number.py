@@ -196,10 +196,15 @@ def _judge(spec: NumberSpec, number: ReadNumber, options: GradingOptions) -> Ver
 
 
 def _judge_share(spec: NumberSpec, number: ReadNumber, options: GradingOptions) -> Verdict:
-    """Return the verdict on ``5 %`` as 0.05; it is asked back where 5 was asked."""
+    """Return the verdict on ``5 %`` as 0.05, or as 5 where the question asks for percent.
+
+    Where it asks for neither and 5 is right, it is asked back.
+    """
     share = percent_to_fraction(number)
     verdict = _judge_as(spec, share, share.value, options)
     plain = replace(number, percent=False)
+    if "%" in spec.counts:
+        return _judge_as(spec, plain, plain.value, options)
     counted = spec.counts and abs(parse_exact(spec.value)) >= 1
     if counted or (not verdict.credit and _judge_as(spec, plain, plain.value, options).credit):
         return unreadable("percent-not-asked", number.read_as)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
@@ -13,6 +14,7 @@ import msgspec
 
 from quizgen.core.decoding import convert
 from quizgen.grading.drawing import AnyFeature
+from quizgen.grading.drawing.point import PointFeature
 from quizgen.grading.drawing.sheet import DrawingComparison, Feature, FieldScale, to_floats
 from quizgen.grading.drawing.strokes import (
     FieldBounds,
@@ -24,6 +26,8 @@ from quizgen.grading.drawing.strokes import (
 )
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.lists import read_list
+from quizgen.grading.reading.numbers import read_number
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, verdict_by_share
 from quizgen.kinds.asking import explain_as_code, hint, make_spec, misconception_specs
@@ -38,7 +42,7 @@ from quizgen.kinds.contract import (
 )
 from quizgen.kinds.work import Work
 from quizgen.maths.constants import Scalar
-from quizgen.maths.notation import parse_formula
+from quizgen.maths.notation import FormulaReadError, parse_formula
 from quizgen.maths.number_systems import CompiledFormula, compile_expr, float64_system
 from quizgen.maths.numbers import MINUS, to_float
 
@@ -55,6 +59,10 @@ DIGITS = 4, 4
 """Decimals of a point, as shares of what is typed they are far finer than any hand."""
 COMMON = {"reads", *Feature.__struct_fields__}
 """Keys of every feature: no formulas."""
+
+
+MARKS_ACROSS = 300
+"""Half the width of a typed point as a mark, of the width of the field: one in so many."""
 
 
 class ParametricCurve(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -128,7 +136,7 @@ class SketchSpec(WordSpec, kw_only=True, frozen=True):
         left, right, low, high = to_floats(self.view)
         return left, right, low, high
 
-    def judge(self, typed: str, _options: GradingOptions, /) -> Verdict:
+    def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
         """Return the verdict on drawn lines by the features of the wanted ones, weighed by worth.
 
         Raises
@@ -136,7 +144,7 @@ class SketchSpec(WordSpec, kw_only=True, frozen=True):
         FormulaReadError
             If no lines can be read.
         """
-        strokes = read_strokes(typed, self.field)
+        strokes = self._read_strokes(typed, options)
         line = self.scale.line
         drawn = [line(piece) for stroke in strokes for piece in self._cut_stroke(stroke)]
         sheet, *mistaken = self._build_comparisons(drawn)
@@ -156,6 +164,38 @@ class SketchSpec(WordSpec, kw_only=True, frozen=True):
             of=len(shares),
             because=missed,
         )
+
+    def _read_strokes(self, typed: str, options: GradingOptions) -> list[list[FieldPoint]]:
+        """Return drawn or typed lines; a point alone is a small mark where only points are asked.
+
+        Raises
+        ------
+        FormulaReadError
+            If no lines can be read.
+        """
+        try:
+            return read_strokes(typed, self.field)
+        except FormulaReadError:
+            only_points = all(isinstance(one, PointFeature) for one in self.features.values())
+            mark = self._write_lone_point(typed, options) if only_points else ""
+            if not mark:
+                raise
+        return read_strokes(mark, self.field)
+
+    def _write_lone_point(self, typed: str, options: GradingOptions) -> str:
+        """Return a typed point as a small mark, ``S = (6/3; 9/3) = (2; 3)``; empty if it is none.
+
+        Of equal points the last one counts.
+        """
+        text = re.split(r"[=≈]", typed)[-1].replace("|", ";")
+        try:
+            items, _ = read_list(text, len(("x", "y")), options.decimal)
+            x, y = (float(read_number(item, options.decimal).main.value) for item in items)
+        except FormulaReadError:
+            return ""
+        left, right, low, high = self.field
+        across, up = (right - left) / MARKS_ACROSS, (high - low) / MARKS_ACROSS
+        return f"{x - across:.9f},{y - up:.9f} {x + across:.9f},{y + up:.9f}"
 
     @property
     def digits(self) -> tuple[int, int]:

@@ -103,7 +103,7 @@ class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
     def _read(self, typed: str, options: GradingOptions) -> list[TypedEntry]:
         """Return the typed components; errors as ``judge``."""
         if self.up_to == "scale":
-            typed = _PARAMETER.sub("", typed)
+            typed = _PARAMETER.sub("", _NOT_ZERO.sub("", typed))
         plain = _write_by_axes(typed).replace("\\\\", ";").replace("&", ";")
         pieces, _ = read_list(plain, len(self.components), options.decimal)
         known = (self.components, *self.traps.values())
@@ -151,6 +151,7 @@ class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
 
 _PARAMETER = re.compile(r"^\s*(?:[^\W\d_]\w? ?= ?)?[^\W\d_] ?[*·⋅×] ?(?=[(\[])")
 """The letter before a vector that stands for all its multiples: ``t·(1; 2)``."""
+_NOT_ZERO = re.compile(r"(?<=[)\]]),? ?\(?[^\W\d_] ?(?:≠|!=|<>) ?0\)?\s*$")
 _TERM = re.compile(r"([-+−]?) ?(\d+(?:[.,]\d+)?)? ?[*·]? ?([ijk])\b ?")
 _AXES = "ijk"
 LONGEST_SUM = 200

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any
@@ -13,7 +14,7 @@ from quizgen.bank.pools import condition_holds, matching_pairs, select_from_pool
 from quizgen.bank.rules import get_claim
 from quizgen.bank.sampler import shuffle
 from quizgen.bank.variant import Variant
-from quizgen.core.errors import BankError
+from quizgen.core.errors import BankError, FormulaError
 from quizgen.grading.judging.statements import used_synonyms
 from quizgen.grading.reading.factor_words import find_bound
 from quizgen.kinds import KINDS
@@ -59,10 +60,17 @@ _ASKED_NOUN = WordPattern(
     re.IGNORECASE,
 )
 """What is counted: ``how many photons of the scene``."""
+_ASKED_IN = WordPattern(
+    rf"(?<![^\W\d_])«in» (?!«articles» )(?P<words>%|(?:{_LETTER}+ ){{0,2}}{_LETTER}+)(?=[,.:?])",
+    re.IGNORECASE,
+)
+"""What a number is asked in: ``in Swiss francs?``, ``in percent.``."""
 _NUMBERED = re.compile(r"\((\d)\) ?([^,;.?()]+)")
 """A number in a question with the words behind it."""
 _UNFILLED = re.compile(r"\{\{[^{}]*\}\}")
 """What stays of a blank with a slip in it."""
+SHORTEST_NOUN = 3
+"""Letters of a word for what is counted."""
 OPTION_FIGURES = 4
 """Significant figures of a value to choose that has no short exact form."""
 
@@ -147,11 +155,31 @@ class VariantPart(PartContext):
     def _asked_nouns(self) -> list[str]:
         """Return what the question itself counts, *photons* in "how many photons", by language."""
         label, found = self.drawn.template.labels[self.index], list[str]()
-        for text in self.drawn.template.texts.values():
+        for lang, text in self.drawn.template.texts.items():
             pieces = leaves(text.sections.get(label, ()) if label else text.stem)
-            for asked in _ASKED_NOUN.finditer("".join(map(_write_plainly, pieces))):
+            asks = "".join(self._write_piece(piece, lang) for piece in pieces)
+            for asked in _ASKED_NOUN.finditer(asks):
                 found += [asked["both"], asked["noun"]]
+            for asked in _ASKED_IN.finditer(asks):
+                found += self._list_measures(asked["words"])
         return list(dict.fromkeys(found))
+
+    def _write_piece(self, piece: object, lang: str) -> str:
+        """Return a piece of the question as text, with a drawn phrase in its place."""
+        phrase = isinstance(piece, Slot) and self.words.get(piece.name)
+        if phrase:
+            return inlines_to_text(Interpolator(self.drawn, lang).sentence("words", phrase))
+        return _write_plainly(piece)
+
+    def _list_measures(self, words: str) -> list[str]:
+        """Return what may stand behind a number that is asked in ``Swiss francs``."""
+        if words == "%" or words.casefold() in set_of_words("percent"):
+            return ["%"]
+        last = words.rpartition(" ")[2]
+        with suppress(FormulaError):
+            self.drawn.template.about.system.unit(last)
+            return [last]
+        return [one for one in (words, last) if len(one) >= SHORTEST_NOUN]
 
     def _nouns(self, things: str | list[str]) -> list[str]:
         """Return listed units as they are, and the bank's words for whatever else is counted.

@@ -75,7 +75,7 @@ FULL = [
      "let": {"x": "a*b"}, "where": ["a > b/9"], "given": ["x/b = a"], "traps": {"half": ["x = a/b"]},
      "lines": {"start": {"forms": ["x/a = b"], "points": "1/2", "needed": True},
                "goal": {"forms": ["x = a*b"], "points": 2}},
-     "reasons": {"cause": {"points": 1, "words": ["similar", "সদৃশ"]}}, "notes": NOTES},
+     "reasons": {"cause": {"points": 1, "words": ["similar", "সদৃশ"]}}, "unit": "cm", "notes": NOTES},
     {"kind": "sketch", "view": [-1, 1, 0, "1"], "tall": "1/2", "cuts": [0], "lines": {"ray": "0,0 0.5,1"},
      "features": {"way": {"reads": "line", "of": ["ray"], "worth": 2, "bend": True, "on": True,
                           "circle": [0, 0, "0.7"]}},

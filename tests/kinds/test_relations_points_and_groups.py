@@ -13,7 +13,8 @@ HALF_PLANE = {"kind": "equation", "value": "y < 2*x + 1", "symbols": ["x", "y"],
 @pytest.mark.parametrize(("typed", "verdict", "note"), [
     ("y < 2x + 1", "correct", ""), ("2x + 1 > y", "correct", ""),
     ("3y - 6x < 3", "correct", ""), ("-y > -2x - 1", "correct", ""),
-    ("y > 2x + 1", "wrong", "trap:above"), ("y ≤ 2x + 1", "wrong", "trap:with-line"),
+    ("y > 2x + 1", "wrong", "trap:above"), ("y ≤ 2x + 1", "partial", "trap:with-line"),
+    ("2y - 4x <= 2", "partial", "trap:with-line"), ("y ≥ 2x + 1", "wrong", ""),
     ("y = 2x + 1", "wrong", ""), ("y < x + 1", "wrong", ""), ("y < ", "unreadable", "equation-expected"),
 ])  # fmt: skip
 def test_an_inequality_may_be_turned_and_multiplied(typed, verdict, note):

@@ -42,6 +42,8 @@ MOST_HELD = 500
 """Relations for which a world remembers whether they hold."""
 SHARP_PLACES = 3
 """Decimals from which on a number is taken for a rounded one, not for a given one."""
+SHARP_FIGURES = 3
+"""Figures from which on a decimal is."""
 
 _ZERO, _ONE = Num(Fraction(0)), Num(Fraction(1))
 
@@ -242,9 +244,17 @@ def _agree_when_rounded(relation: Relation, a: Value, b: Value) -> bool:
 
 
 def _last_place(side: Expr) -> fmpq | None:
-    """Return one unit of the last decimal of a side that is a decimal; else None."""
+    """Return one unit of the last decimal of a side that is a decimal or so many %; else None."""
     inner = side.args[0] if isinstance(side, Call) and side.op == "neg" else side
-    return fmpq(1, 10 ** _count_places(inner)) if isinstance(inner, Num) and inner.decimal else None
+    whole = 1
+    if isinstance(inner, Call) and inner.op == "div" and inner.args[1] == _HUNDRED:
+        inner, whole = inner.args[0], 100
+    if not isinstance(inner, Num) or not inner.decimal:
+        return None
+    return fmpq(1, 10 ** _count_places(inner) * whole)
+
+
+_HUNDRED = Num(Fraction(100))
 
 
 def _count_places(number: Num) -> int:
@@ -256,12 +266,19 @@ def _count_places(number: Num) -> int:
 
 
 def _has_rounded_number(relation: Relation) -> bool:
-    """Return whether a number of a relation has so many decimals that it is a rounded one."""
+    """Return whether a number of a relation has so many digits that it is a rounded one."""
     return any(
-        isinstance(node, Num) and node.decimal and _count_places(node) >= SHARP_PLACES
+        isinstance(node, Num) and node.decimal and _is_sharp(node)
         for side in (relation.left, relation.right)
         for node in walk_tree(side)
     )
+
+
+def _is_sharp(number: Num) -> bool:
+    """Return whether a decimal has the decimals or figures of one that was rounded: 0.042, 15.9."""
+    places = _count_places(number)
+    figures = str(abs(number.value.numerator) * 10**places // number.value.denominator)
+    return places >= SHARP_PLACES or (places > 0 and len(figures) >= SHARP_FIGURES)
 
 
 MOST_ROOTS = 4

@@ -151,6 +151,14 @@ _SPELT = tuple(
     )
 )  # fmt: skip
 _DOUBLE = re.compile(r"(.)\1+")
+
+
+@lru_cache(maxsize=4096)
+def fold_doubles(word: str) -> str:
+    """Return a word with each letter once where it is doubled: which one is, is often mistaken."""
+    return _DOUBLE.sub(r"\1", word)
+
+
 LEAST_SOUNDS = 3
 """Consonants by which a word is known."""
 

@@ -22,6 +22,7 @@ from quizgen.grading.judging.likeness import (
 from quizgen.grading.judging.spelling import (
     allowed_typos,
     find_translation,
+    fold_doubles,
     fold_word,
     typo_distance,
 )
@@ -104,7 +105,9 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
         or len(more) > _MOST_WORDS_MORE
     ):
         return 0
-    if not all_named and not _says_enough(_split_words(wordings[hits[0] - 1]), meant, listed):
+    meant_text = wordings[hits[0] - 1]
+    names = frozenset(_fold(name.casefold()) for name in _NAME.findall(meant_text))
+    if not all_named and not _says_enough(_split_words(meant_text), meant, listed, names):
         return 0
     denied = (
         says_otherwise(" ".join(more))
@@ -112,6 +115,10 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
         or are_opposed(meant, wanted)
     )
     return 0 if denied else hits[0]
+
+
+_NAME = re.compile(r"(?<=[^\W\d_] )[A-Z][a-z]{3,}")
+"""A name: a word with a capital behind another one."""
 
 
 def find_wording_in(
@@ -330,12 +337,16 @@ def _join_compounds(spoken: tuple[str, ...], known: frozenset[str]) -> tuple[str
 
 
 def _says_enough(
-    wording: tuple[str, ...], meant: frozenset[str], listed: list[frozenset[str]]
+    wording: tuple[str, ...],
+    meant: frozenset[str],
+    listed: list[frozenset[str]],
+    names: frozenset[str],
 ) -> bool:
     """Return whether an answer has enough of a wording: ``barrel``, not ``pixels`` for hot ones.
 
     It has all numbers and letters that tell it from others, and at least half of the words that no
     other one has; a word of its own only with two thirds of these, more of them only with all.
+    A name that only it has, ``Reykjavik``, is enough.
     """
     exact = {
         word
@@ -345,9 +356,9 @@ def _says_enough(
     own = _own_words(frozenset(wording), listed)
     own = own - set_of_words("wordings.joining") or own
     said = own & meant
-    if exact - meant or 2 * len(said) < len(own):
+    if exact - meant or (2 * len(said) < len(own) and not said & names):
         return False
-    if said == own or any(len(word) >= LONG and word.isalpha() for word in said):
+    if said == own or said & names or any(len(word) >= LONG and word.isalpha() for word in said):
         return True
     more = len(meant - {*wording})
     if more == 1 and len(said) > 1 and 3 * len(said) >= 2 * len(own):
@@ -409,7 +420,9 @@ def _find_known_word(word: str, known: frozenset[str]) -> str:
     near = [one for one in known if _stem(one) == _stem(word)] or [
         one
         for one in known
-        if one[:1] == word[:1] and typo_distance(word, one, 1) <= min(1, allowed_typos(one))
+        if one[:1] == word[:1]
+        and allowed_typos(one)
+        and (typo_distance(word, one, 1) <= 1 or fold_doubles(word) == fold_doubles(one))
     ]
     return near[0] if len(near) == 1 else word
 

@@ -298,7 +298,7 @@ def write_in_signs(typed: str) -> str:
 def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
     """Yield the one number among words; a quantity needs its unit if words follow."""
     around = _load_around_words()
-    named_by, text = text, _NAMED.sub("", text)
+    named_by, text = text, _NAMED.sub("", _ASSUMED.sub("", text))
     text = around.becoming.sub(r"\1 ", around.rounding.sub("", text))
     text = _IN_UNIT.sub(r" \1", text)
     if text != named_by:
@@ -324,7 +324,7 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
 
 def _find_conclusion(text: str) -> Iterator[str]:
     """Yield the number that is concluded at the end: ``2^3 = 8, so 3 bits``."""
-    for shape in (_CONCLUDED, _DERIVED, _STEPS, _load_around_words().correcting):
+    for shape in (_CONCLUDED, _DERIVED, _ARROWED, _STEPS, _load_around_words().correcting):
         concluded = shape.fullmatch(text)
         if concluded and not says_otherwise(concluded["rest"]):
             yield add_mixed_units(concluded["rest"].rpartition("=")[2].strip() or text)
@@ -345,11 +345,21 @@ _STEPS = re.compile(r"(?=[^,;]*\d[^,;]*=).*\d.*[,;] (?P<rest>[^,;]*\d[^,;]*)", r
 """A value that ends steps with commas between them, ``56*100 = 5600, 5600^2 = 31 MP``."""
 _DERIVED = re.compile(r"(?=.*[=√+*/]).*\d.*(?:->|→|=>|⇒) *(?P<rest>[^<>→⇒]*\d[^<>→⇒]*)", re.DOTALL)
 """A value behind the arrow at the end of a derivation."""
+_ARROWED = re.compile(
+    r"[-+\d][-+\d\s.,]*(?:(?:->|→|=>|⇒)[-+\d\s.,]+)*(?:->|→|=>|⇒) *(?P<rest>[-+]?\d[^<>→⇒]*)"
+)
+"""A value behind an arrow from numbers, ``320 -> 64 -> 32``."""
 
 
 def find_conclusion(typed: str) -> str:
     """Return what is concluded from sides that are not equal, ``-30 → 330°``; empty if nothing."""
-    return next(_find_conclusion(_write_words_as_numbers(drop_decoration(typed, "number"))), "")
+    text = _write_words_as_numbers(drop_decoration(typed, "number"))
+    remarked = _PARAMETER_BEHIND.fullmatch(text)
+    return remarked[1] if remarked else next(_find_conclusion(text), "")
+
+
+_PARAMETER_BEHIND = re.compile(r"([-+−]?\d[\d.,]*(?: ?[^\W\d]\S*)?) ?\([^\W\d_]{1,3} ?= ?\d+\)")
+"""A value with what it depends on, ``2.45 (df = 6)``."""
 
 
 def _is_idle_remark(words: str) -> bool:
@@ -360,6 +370,8 @@ def _is_idle_remark(words: str) -> bool:
     )
 
 
+_ASSUMED = WordPattern(r"^.{1,60}?\d.{0,30}? «assumed-behind»,? (?=.*\d)", re.IGNORECASE)
+"""What a value was worked out with, in languages that say so behind it: ``1.7 m ধরে 425 px``."""
 _SAME_VALUE = WordPattern(
     r"([^()]*\d(?: ?[^\W\d]{1,12}(?:/[^\W\d]{1,12})?)?) \((?:«that-is» |[=≈] ?)?([^()]*\d[^()]*)\)"
 )
@@ -523,7 +535,7 @@ _REMARK = re.compile(r"(?<=\d) ?\([^\W\d][^()\d;,]*\)")
 _MINUS = WordPattern(r"(?<![^\W\d_])«minus» (?=[.,]?\d)", re.IGNORECASE)
 _LAST_LIST = WordPattern(
     r"(?:.*\d.*|[^(,;]+)(?:=>?|:|→|⇒|->|, «so») ?"
-    r"(\([^()=]+\)|\[[^\[\]=]+\])",
+    r"(\([^()=]+\)|\[[^\[\]=]+\]|(?<=[>→⇒] )[-+−]?\d[\d.,]*(?: ?; ?[-+−]?\d[\d.,]*)+)",
     re.DOTALL,
 )
 """The list at the end of equal ones: ``2·(1; 3) = (2; 6)``."""
@@ -610,19 +622,43 @@ _CHAIN = re.compile(r"[\d\s.,/+*()−-]+(?:[=≈][\d\s.,/+*()−-]+)+")
 def prove_groups(typed: str) -> str:
     """Return it without marks of groups, where one number proves them: ``64,000; 1,152,000``.
 
-    The other sign as a decimal one proves them, too: ``7,500; 12.87``.
+    The other sign as a decimal one proves them, too: ``7,500; 12.87``; so does what is worked
+    out, ``2^16 = 65.536``.
     """
-    proof = _GROUPED.search(typed) or (
-        _DECIMAL_BESIDE.search(typed) if _HARD.search(typed) else None
-    )
-    if proof is None:
+    mark = re.escape(_find_thousands_mark(typed))
+    if not mark:
         return typed
-    sign = proof[1]
-    mark = re.escape(sign if proof.re is _GROUPED else {".": ",", ",": "."}[sign])
     group = re.compile(rf"(?<![\d.,])\d{{1,3}}(?:{mark}\d{{3}})+(?![\d.,]?\d)")
     return group.sub(lambda m: re.sub(mark, "", m[0]), typed)
 
 
+def _find_thousands_mark(typed: str) -> str:
+    """Return the sign between groups of three digits that a number proves; empty without proof."""
+    grouped = _GROUPED.search(typed)
+    if grouped:
+        return grouped[1]
+    beside = _DECIMAL_BESIDE.search(typed) if _HARD.search(typed) else None
+    return {".": ",", ",": "."}[beside[1]] if beside else _find_mark_worked_out(typed)
+
+
+def _find_mark_worked_out(typed: str) -> str:
+    """Return the sign in a product or power that is worked out, ``2^16 = 65.536``."""
+    for match in _WORKED_OUT.finditer(typed):
+        value = 1
+        for factor in re.split(r"[*·×]", match["work"]):
+            base, _, power = (piece.strip() for piece in factor.partition("^"))
+            value *= int(base) ** min(int(power or 1), _LARGEST_POWER)
+        if value == int(re.sub(r"[.,]", "", match["value"])):
+            return match["sign"]
+    return ""
+
+
+_LARGEST_POWER = 64
+_FACTOR = r"\d{1,6}(?: ?\^ ?\d{1,2})?"
+_WORKED_OUT = re.compile(
+    rf"(?P<work>{_FACTOR}(?: ?[*·×] ?{_FACTOR}){{0,6}}) ?= ?"
+    r"(?P<value>\d{1,3}(?P<sign>[.,])\d{3}(?:(?P=sign)\d{3})*)(?![\d.,]?\d)"
+)
 _DECIMAL_BESIDE = re.compile(r"(?<![\d.,])\d+([.,])(?:\d{1,2}|\d{4,})(?![\d.,])")
 _HARD = WordPattern(r"[;|\n]| / | «and» ")
 

@@ -4,18 +4,23 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from fractions import Fraction
 from itertools import pairwise
 
 import msgspec
 
+from quizgen.core.errors import FormulaError
 from quizgen.grading.judging.relations import Relation
 from quizgen.grading.reading.formulas import TypedFormula, read_formula
 from quizgen.grading.reading.normalise import refuse_invisible, refuse_long_prose
 from quizgen.grading.reading.source_map import SourceText
+from quizgen.grading.reading.units import listed_unit, read_unit
 from quizgen.locale.word_patterns import WordPattern
 from quizgen.maths.notation import FormulaReadError, format_tree, pretty
 from quizgen.maths.notation.names import CONSTANTS, FUNCTIONS, GREEK, NAME, fold_name, split_product
-from quizgen.maths.tree import Expr, Sym
+from quizgen.maths.numbers import to_fraction
+from quizgen.maths.tree import Call, Expr, Num, Sym
+from quizgen.maths.units import format_unit
 
 MOST_LINES = 40
 """Most lines of a derivation."""
@@ -127,11 +132,15 @@ class DerivationReader:
         The learner's decimal sign.
     first : Expr
         The left side of a line that is a formula alone, where no line before it has one.
+    unit : str
+        In which numbers stand; one that is typed behind a number is converted to it.
     """
 
-    def __init__(self, symbols: Mapping[str, object], decimal: str, first: Expr) -> None:
+    def __init__(
+        self, symbols: Mapping[str, object], decimal: str, first: Expr, unit: str = ""
+    ) -> None:
         """Start with the names of the question."""
-        self.symbols, self.decimal = list(symbols), decimal
+        self.symbols, self.decimal, self.unit = list(symbols), decimal, unit
         self._left, self._side = first, ""
 
     def read(self, typed: str) -> list[DerivedLine]:
@@ -289,7 +298,11 @@ class DerivationReader:
         applied = _APPLIED.search(side)
         if applied is not None and applied[1] in self.symbols:
             raise FormulaReadError("two-readings", applied.start() + 1, applied[0])
-        return read_formula(side, self.symbols, self.decimal)
+        measured = _MEASURED.fullmatch(side.strip()) if self.unit else None
+        if measured is None or measured["unit"] in self.symbols:
+            return read_formula(side, self.symbols, self.decimal)
+        found = read_formula(measured["number"], self.symbols, self.decimal)
+        return _convert(found, _compute_factor(measured["unit"], self.unit))
 
     def _is_new_name(self, side: str) -> bool:
         """Return whether a side is one name that nobody has declared, and no product of such."""
@@ -301,6 +314,43 @@ class DerivationReader:
         except FormulaReadError:
             return not any(fold_name(name).lower() == fold_name(one).lower() for one in names)
         return False
+
+
+_MEASURED = re.compile(r"(?P<number>.*[\d)]) ?(?P<unit>[^\W\d_][^\s\d()]*|[%°])")
+"""A number, or what is worked out, with a unit behind it."""
+
+
+def _compute_factor(typed: str, asked: str) -> Fraction:
+    """Return how many of the asked units a typed one is.
+
+    Raises
+    ------
+    FormulaReadError
+        If it is none, or one of another kind.
+    """
+    try:
+        unit = read_unit(typed)
+    except FormulaError as error:
+        raise FormulaReadError("unknown-unit", 1, typed) from error
+    wanted = listed_unit(asked)
+    if unit.dimension != wanted.dimension:
+        raise FormulaReadError("unit-other", 1, format_unit(unit.text), [format_unit(asked)])
+    return to_fraction(unit.factor / wanted.factor)
+
+
+def _convert(found: TypedFormula, factor: Fraction) -> TypedFormula:
+    """Return a formula in other units; a decimal stays one, which may be rounded."""
+    if factor == 1:
+        return found
+
+    def scale(tree: Expr) -> Expr:
+        """Return a number times the factor."""
+        if isinstance(tree, Num):
+            return Num(tree.value * factor, decimal=tree.decimal)
+        return Call("mul", (tree, Num(factor)))
+
+    other = found.other and scale(found.other)
+    return msgspec.structs.replace(found, tree=scale(found.tree), other=other)
 
 
 def _split_lines(typed: str) -> Iterator[tuple[str, bool, str]]:

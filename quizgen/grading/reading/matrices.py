@@ -37,9 +37,11 @@ def split_matrix(typed: str, decimal: str = "auto") -> list[list[str]]:
     text = apply_rewrite("about", _LATEX.sub("", _NAME.sub("", typed)).strip()).rstrip(".")
     text = _ARRAY.sub(r"\1", text)
     text = _NESTED.sub(_square_rows, text)
-    while text[:1] in {"[", "("} and text[-1:] in {"]", ")"}:
+    in_brackets = _ROWS_IN_BRACKETS.fullmatch(text)
+    while not in_brackets and text[:1] in {"[", "("} and text[-1:] in {"]", ")"}:
         text = text[1:-1].strip()
-    cut = _ROWS if _ROWS_IN_BRACKETS.fullmatch(text) is None else _BRACKETS_BETWEEN
+        in_brackets = _ROWS_IN_BRACKETS.fullmatch(text)
+    cut = _BRACKETS_BETWEEN if in_brackets else _ROWS
     if cut is _BRACKETS_BETWEEN:
         text = re.sub(r"[;|]", "&", text)
     rows = [_split_row(row, decimal) for row in map(_strip_row, cut.split(text)) if row]
