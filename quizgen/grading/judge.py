@@ -16,6 +16,7 @@ from quizgen.grading.reading.answer_reader import (
     AnswerForm,
     drop_bullets,
     drop_counting,
+    drop_equal_reason,
     drop_markup,
     drop_transposed,
     find_conclusion,
@@ -168,6 +169,8 @@ def _prepare(typed: str, form: AnswerForm, names: AskedNames) -> str:
         return write_in_signs(typed)
     if form == "word":
         return drop_bullets(drop_markup(typed))
+    if form in {"number", "quantity"}:
+        return drop_equal_reason(typed)
     return drop_markup(typed) if form == "option" else typed
 
 

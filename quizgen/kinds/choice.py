@@ -72,10 +72,12 @@ _TRUTH_FIRST = WordPattern(
 )
 """*Yes* or *false* with a reason behind it; ``0.5`` is neither."""
 _TRUTH_CORRECTED = WordPattern(
-    r"(?P<head>[^\s,;:.(…]+)(?:[,;:.… ]+(?:«choices.correcting»)|[,;:.…]+ ?«choices.false»)"
+    r"(?P<head>[^\s,;:.(…]+)(?:[,;:.… ]+(?:«choices.correcting»)|[,;:.…]+ ?(?!\d)«choices.false»)"
     r"[,;:.… ]+(?P<rest>.+)"
 )
 """A verdict taken back for another one: ``false... no, true``."""
+_OPEN = re.compile(r"\.\.|…|\?")
+"""Signs that something is left open."""
 _DENIED_FIRST = re.compile(r"(?P<head>[^,;:.()]+)(?:[,;:.] | \(| [-–—] )(?P<rest>.+)")
 """*Not true* with a reason behind it."""
 _SHORT_DENIAL = WordPattern(r"«choices.subjects» «choices.helpers»(?P<no>(?: «choices.not»|n't))?")
@@ -237,6 +239,9 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
         If there is none.
     """
     typed = _ARE_TRUE.sub("", typed.rstrip(" ;,✓✔."))
+    listed = _LETTERS_LAST.fullmatch(typed) if spec.kind == "multi" else None
+    if listed and not is_denied(listed["words"]) and not says_otherwise(listed["words"]):
+        typed = listed["letters"]
     clear = _read_clear_options(spec, typed)
     if clear:
         return clear
@@ -298,6 +303,8 @@ _BESIDE_DENIED = WordPattern(
     rf"(?:,|;| «choices.but») (?P<out>{_LETTERS}) (?:«choices.are» )?«choices.no-option»",
     re.IGNORECASE,
 )
+_LETTERS_LAST = re.compile(r"(?P<words>[^:]*[^\W\d_]{3}[^:]*): ?(?P<letters>[A-Z](?:[ ,;]+[A-Z])*)")
+"""Letters behind words that say why."""
 _LETTERS_REMARKED = WordPattern(
     r"(?P<kept>[A-Z](?:(?:[, ]+|,? «and» )[A-Z])*) \((?P<remark>[^()]{3,})\)"
 )
@@ -360,7 +367,8 @@ def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:
         return reasoned
     text = typed.strip(_AROUND)
     head, _, remark = text.partition(",")
-    places = _read_places(head.strip(), len(spec.choices()))
+    values = all(_VALUE.fullmatch(option.replace("\xa0", " ")) for option in spec.choices())
+    places = [] if values else _read_places(head.strip(), len(spec.choices()))
     told = _find_wording(spec, remark or text) if places else 0
     if places and told in {0, *places} and not says_otherwise(remark):
         return places
@@ -412,6 +420,8 @@ def _read_places(text: str, count: int) -> list[int]:
     """Return the places of ``the fourth``, ``the last one``, ``the first two``; none of others."""
     idle = set_of_words("articles") | set_of_words("choices.place-nouns")
     words = [word for word in text.casefold().split() if word not in idle]
+    if len(words) == len(("second", "camera")) and words[1].isalpha() and not read_count(words[1]):
+        words = [one for one in words[:1] if list_ordinals().get(one)] or words
     counted = [list_ordinals().get(word, 0) for word in words]
     if len(words) == 1 and words[0] in set_of_words("choices.last"):
         return [count]
@@ -671,7 +681,7 @@ def read_truth(text: str) -> int:
     if found:
         return found
     corrected = _TRUTH_CORRECTED.fullmatch(word)
-    if corrected and _find_truth_word(corrected["head"]):
+    if corrected and _find_truth_word(corrected["head"]) and not _OPEN.search(corrected["rest"]):
         return read_truth(corrected["rest"])
     if _ALTERNATIVE.search(_TRUTH_FIRST.sub(r"\g<first>", word)):
         return 0

@@ -109,6 +109,11 @@ _CONCLUDED = WordPattern(
     re.IGNORECASE | re.DOTALL,
 )
 """An output behind how it comes about."""
+_CORRECTED = WordPattern(
+    r".+[,;.…] ?(?!\d)(?:«choices.correcting»|«choices.false»)[,:]? ?(?P<rest>[(\[{\d'\"-].*)",
+    re.IGNORECASE | re.DOTALL,
+)
+"""An output in place of one that is taken back: ``(1, 2), no (2, 1)``."""
 _AND = WordPattern(r"(?<!\w)«and»(?!\w)")
 _EITHER = WordPattern(r"(?<!\w)«choices.or»(?!\w)", re.IGNORECASE)
 _STRAIGHT = {**dict.fromkeys("“”„‟«»", '"'), **dict.fromkeys("‘’‚‛", "'")}
@@ -145,7 +150,7 @@ def _list_barer_texts(given: str) -> Iterator[str]:
     yield short
     yield _TAIL.sub("", short)
     yield fold_blanks(_AND.sub(" ", short))
-    concluded = _CONCLUDED.fullmatch(bare)
+    concluded = _CONCLUDED.fullmatch(bare) or _CORRECTED.fullmatch(bare)
     if concluded:
         yield _TAIL.sub("", _drop_surroundings(concluded["rest"]))
 

@@ -338,8 +338,8 @@ def read_any_entry(piece: str | SourceText, decimal: str, *, as_complex: bool) -
 
 
 _UNIT_FIRST = re.compile(r"(?<![^\W\d_])([ij]) ?(?=\d)")
-_UNIT_APART = re.compile(r"(?:(?<=/\d)|(?<=/ \d)|(?<=\d\))) +(?=[ij](?![^\W_]))")
-"""A blank before the unit: it is no part of the denominator."""
+_UNIT_APART = re.compile(r"(?<=[\d)])(?P<blank> *)(?=[ij](?![^\W_]))")
+"""The unit behind a number, which is no part of the denominator: ``11/29i``."""
 
 
 def separate_unit(typed: str) -> str:

@@ -318,6 +318,9 @@ def _drop_around(word: str, known: list[str]) -> str:
     terms = {*map(fold_word, known)}
     if apart and {fold_word(apart["out"]), fold_word(apart["kept"])} <= terms:
         word = apart["kept"]
+    product = _PRODUCT.fullmatch(word)
+    if product and fold_word(product["term"]) in terms:
+        word = product["term"]
     called = _CALLED.fullmatch(word)
     if called and fold_word(called["term"]) in terms and not _holds_a_term(called["head"], known):
         word = word if is_denied(called["head"]) else called["term"]
@@ -405,15 +408,23 @@ def _load_idle_words() -> frozenset[str]:
 
 
 def _drop_reason(word: str, terms: list[str]) -> str:
-    """Return the term in front of its reason, ``black, since it absorbs``; else all of it."""
+    """Return the term in front of its reason, ``black, since it absorbs``; else all of it.
+
+    Several words behind a comma are a reason, too, as long as they offer no other word.
+    """
     plain = _REASON.sub("", word).strip()
     nearly = _NEARLY.sub("", plain)
+    before, comma, reason = word.partition(", ")
+    explained = before if comma and " " in reason and not _OFFERED.search(reason) else word
     known = {*map(fold_word, terms)}
-    return next((one for one in (plain, nearly) if one != word and fold_word(one) in known), word)
+    tried = (plain, nearly, explained)
+    return next((one for one in tried if one != word and fold_word(one) in known), word)
 
 
 _CALLED = WordPattern(r"(?P<head>[^,;:=]+?)(?: «is»:? | ?[:=] ?)(?P<term>[^,;:=]+)", re.IGNORECASE)
 """A term behind what it is of, ``the code is SN``."""
+_PRODUCT = re.compile(r".*(?:->|→|⟶|=>|⇒) *(?P<term>[^<>→⟶⇒]+)")
+"""What comes out, behind the arrow of a reaction: ``N2 + 3 H2 -> 2 NH3``."""
 _NOT_BUT = WordPattern(r"«choices.not» (?P<out>.+?),? «choices.but» (?P<kept>.+)", re.IGNORECASE)
 _REASON = WordPattern(r"[,;.(]? ?(?<!\w)«choices.because»(?!\w).+", re.IGNORECASE | re.DOTALL)
 _NEARLY = WordPattern(r"^\(?(?:«nearly»|«about»)\)? ", re.IGNORECASE)

@@ -19,7 +19,7 @@ from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.reading.written_intervals import write_interval
 from quizgen.grading.rounding import format_exact_or_figures, format_key
 from quizgen.grading.spec import NumericSpec
-from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
+from quizgen.grading.verdict import HALF, Verdict, correct, partial, verdict_by_share, wrong
 from quizgen.kinds.asking import (
     make_spec,
     misconception_specs,
@@ -103,7 +103,11 @@ class IntervalSpec(NumericSpec, kw_only=True, frozen=True):
         if self._is_same_union(pieces, keys):
             return correct(read_as)
         if len(pieces) != len(keys):
-            return wrong(read_as, "interval-count", right=len(pieces))
+            right = [
+                key for key in keys if any(self._is_same_union([one], [key]) for one in pieces)
+            ]
+            share = Fraction(len(right), len(keys)) if len(right) == len(pieces) else Fraction(0)
+            return verdict_by_share(share, read_as, "interval-count", right=len(pieces))
         bounds = all(self._has_same_bounds(*pair) for pair in zip(pieces, keys, strict=True))
         return partial(HALF, read_as, "union-brackets") if bounds else wrong(read_as, "bounds")
 

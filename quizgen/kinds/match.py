@@ -18,7 +18,7 @@ from quizgen.grading.reading.answer_reader import AnswerForm, is_denied
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, LONE_LETTER, PICTURES, normalise_typed
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, correct, verdict_by_share
-from quizgen.kinds.asking import assign_letters, hint, make_spec
+from quizgen.kinds.asking import assign_letters, make_spec
 from quizgen.kinds.contract import (
     AnswerKind,
     AskedPart,
@@ -30,6 +30,7 @@ from quizgen.kinds.contract import (
     find_name_problems,
 )
 from quizgen.kinds.work import count_listed
+from quizgen.locale import translate
 from quizgen.locale.word_patterns import WordPattern, set_of_words
 from quizgen.maths.notation import FormulaReadError
 
@@ -511,11 +512,22 @@ def ask(part: PartContext) -> AskedPart[MatchSpec]:
     )
 
 
+def say_how(spec: MatchSpec, lang: str) -> tuple[str, ...]:
+    """Return how pairs are typed, and whether a right side may be used twice."""
+    return (translate(lang, "ask.match_reuse" if spec.allows_reuse() else "ask.match"),)
+
+
+def say_on_paper(spec: MatchSpec, lang: str) -> tuple[str, ...]:
+    """Return that a right side may be used twice, where it may."""
+    return (translate(lang, "on_paper.reuse"),) if spec.allows_reuse() else ()
+
+
 KIND = AnswerKind(
     AuthoredMatch,
     MatchSpec,
     ask,
-    hint("ask.match"),
+    say_how,
+    paper_hints=say_on_paper,
     verb="tick",
     work=count_listed("tick", "pairs"),
 )

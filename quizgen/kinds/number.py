@@ -192,7 +192,11 @@ def _judge(spec: NumberSpec, number: ReadNumber, options: GradingOptions) -> Ver
         return _judge_percent(spec, number, options)
     if number.percent:
         return _judge_share(spec, number, options)
-    return _judge_as(spec, number, number.value, options)
+    first = _judge_as(spec, number, number.value, options)
+    if "%" not in spec.counts or first.credit:
+        return first
+    share = _judge_as(spec, number, number.value * 100, options)
+    return share if share.credit else first
 
 
 def _judge_share(spec: NumberSpec, number: ReadNumber, options: GradingOptions) -> Verdict:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import msgspec
 
 from quizgen.core.errors import FormulaError
+from quizgen.grading.diagnosis.carry_forward import to_constant
 from quizgen.grading.judge import show_spec
 from quizgen.grading.judging.sampled_equality import BITS, Domain, compile_exact
 from quizgen.grading.options import GradingOptions
@@ -57,13 +59,14 @@ from quizgen.kinds.contract import (
     SymbolDomain,
 )
 from quizgen.kinds.work import Work
-from quizgen.maths.constants import Scalar, parse_exact
+from quizgen.maths.constants import Scalar, evaluate_constant, parse_exact
 from quizgen.maths.notation import FormulaReadError, format_tree, parse_formula, pretty
 from quizgen.maths.notation.names import FUNCTIONS
 from quizgen.maths.numbers import format_exact, format_for_key
 from quizgen.maths.operators import CONDITIONS
 from quizgen.maths.precision import working_precision
-from quizgen.maths.tree import Call, Expr, Num, substitute
+from quizgen.maths.tidy import tidy_formula
+from quizgen.maths.tree import Call, Expr, Num, names_in, substitute
 from quizgen.maths.units import format_unit
 
 if TYPE_CHECKING:
@@ -253,8 +256,36 @@ def _is_relation_true(spec: WitnessSpec, text: str, env: dict[str, Any]) -> bool
     """Return whether a relation holds; False where it has no value, None if that is undecided."""
     result = _compile_formula(text, spec.usable_names())(env)
     if isinstance(result, type):
-        return None
+        return _compare_as_formulas(spec, text, env)
     return bool(result)
+
+
+def _compare_as_formulas(spec: WitnessSpec, text: str, env: dict[str, Any]) -> bool | None:
+    """Return whether sides that no digits tell apart are the same formula; None if undecided.
+
+    With ``a = 0`` the sides of ``(a + b)^p = a^p + b^p`` are, for a positive p.
+    """
+    tree = parse_authored(text, spec.usable_names())
+    if not isinstance(tree, Call) or tree.op not in {"eq", "ne", "lt", "gt", "le", "ge"}:
+        return None
+    numbers = {name: to_constant(value) for name, value in env.items() if name in names_in(tree)}
+    left, right = (tidy_formula(_drop_zero_powers(substitute(side, numbers))) for side in tree.args)
+    return tree.op in {"eq", "le", "ge"} if left == right else None
+
+
+_ZERO = Num(Fraction(0))
+
+
+def _drop_zero_powers(tree: Expr) -> Expr:
+    """Return a formula with 0 in place of a positive power of 0."""
+    if not isinstance(tree, Call):
+        return tree
+    args = tuple(map(_drop_zero_powers, tree.args))
+    if tree.op == "pow" and args[0] == _ZERO:
+        with suppress(FormulaReadError):
+            if not names_in(args[1]) and evaluate_constant(args[1]) > 0:
+                return _ZERO
+    return Call(tree.op, args)
 
 
 def _iter_domain_constraints(spec: WitnessSpec) -> Iterator[tuple[str, str]]:

@@ -151,11 +151,21 @@ def test_a_comparison_that_cannot_be_certified_is_not_false(relation):
 
 
 def test_an_example_that_cannot_be_decided_is_asked_back():
-    """The sine of a whole number of pi is zero, but a ball around it never excludes other values."""
+    """The square of 1 + √2 is 3 + 2√2, but a ball around its root never excludes other values."""
+    spec = {"kind": "witness", "predicate": "sqrt(3 + 2*sqrt(x)) > 1 + sqrt(x)", "symbols": ["x"]}
+    assert grade_answer(spec, "2").note == "undecided"
+    assert grade_answer(spec, "1").verdict == "correct"
+    assert grade_answer(spec, "9").verdict == "wrong"
+
+
+def test_sides_that_are_the_same_formula_are_decided():
+    """No ball tells them apart: the sine of a whole number of pi is 0, and so is a power of 0."""
     spec = {"kind": "witness", "predicate": "sin(pi*sqrt(x)) < 0", "symbols": ["x"]}
-    assert grade_answer(spec, "1").note == "undecided"
-    assert grade_answer(spec, "9/4").verdict == "correct"
-    assert grade_answer(spec, "1/4").verdict == "wrong"
+    assert grade_answer(spec, "1").note == "predicate"
+    powers = "(x + y)^(1/2.2) != x^(1/2.2) + y^(1/2.2)"
+    spec = {"kind": "witness", "predicate": powers, "symbols": ["x", "y"]}
+    assert grade_answer(spec, "0; 0.5").note == "predicate"
+    assert grade_answer(spec, "0.5; 0.5").verdict == "correct"
 
 
 def test_a_rational_multiple_of_pi_is_decided():

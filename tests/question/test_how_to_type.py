@@ -20,8 +20,14 @@ from quizgen.typeset.prose import to_inlines
 TOLD = {
     ("set", "en"): "Give all values in any order, separated by semicolons.",
     ("set", "de"): "Geben Sie alle Werte in beliebiger Reihenfolge an, durch Semikolon getrennt.",
-    ("interval", "en"): "Write an interval, for example [0; 1), or (0; inf).",
-    ("interval", "de"): "Schreiben Sie ein Intervall, zum Beispiel [0; 1) oder (0; inf).",
+    (
+        "interval",
+        "en",
+    ): "Write an interval, for example [0; 1) or (0; inf); join several with ∪ or “or”.",
+    (
+        "interval",
+        "de",
+    ): "Schreiben Sie ein Intervall, zum Beispiel [0; 1) oder (0; inf); mehrere mit ∪ oder „oder“ verbunden.",
 }
 
 

@@ -14,7 +14,16 @@ from quizgen.grading.reading.literals import Ambiguity
 from quizgen.grading.reading.numbers import Readings, ReadNumber
 from quizgen.grading.rounding import round_ball_half_away
 from quizgen.grading.spec import matches_misconception
-from quizgen.grading.verdict import HALF, Verdict, ambiguous, correct, partial, wrong
+from quizgen.grading.verdict import (
+    CORRECT,
+    FULL,
+    HALF,
+    Verdict,
+    ambiguous,
+    correct,
+    partial,
+    wrong,
+)
 from quizgen.maths.numbers import decimal_exponent
 from quizgen.maths.tolerance import Tolerance
 from quizgen.maths.values import Value
@@ -159,7 +168,8 @@ def judge_value(
     if asked.spec.accepts(value, asked.key) or _is_near_printed(
         asked.spec, number, value, asked.key
     ):
-        return _judge_number_form(asked.spec, number, asked.form, read_as)
+        verdict = _judge_number_form(asked.spec, number, asked.form, read_as)
+        return _forgive_closing_zeros(asked, number, value, verdict)
     if is_integer_written_as_decimal(asked.spec, number, value, asked.key):
         return correct(read_as, "whole-number")
     carried = asked.hints.carried_forward(value) if asked.hints else None
@@ -170,6 +180,22 @@ def judge_value(
     if trap and not (coarse and coarse.credit and value != dict(asked.traps)[trap]):
         return wrong(read_as, f"trap:{trap}")
     return coarse or _diagnose_wrong_value(asked, number, value, read_as)
+
+
+def _forgive_closing_zeros(
+    asked: NumberTarget, number: ReadNumber, value: Value, verdict: Verdict
+) -> Verdict:
+    """Return full points, with the same remark, where only noughts at the end are missing.
+
+    0.149 is 0.1490, rounded to four figures; a strict tolerance asks for the nought.
+    """
+    figures = asked.spec.sigfigs
+    if verdict.note != "figures-asked" or figures is None or asked.spec.strict:
+        return verdict
+    rounded = round_ball_half_away(asked.key, figures - 1 - decimal_exponent(asked.key))
+    is_decimal = number.form in {"decimal", "scientific"}
+    same = is_decimal and bool(value == rounded)
+    return replace(verdict, verdict=CORRECT, credit=FULL) if same else verdict
 
 
 def _is_near_printed(spec: Tolerance, number: ReadNumber, value: Value, key: Value) -> bool:

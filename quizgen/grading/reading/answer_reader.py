@@ -156,7 +156,8 @@ def _load_around_words() -> _AroundWords:
         re.compile(rf"(?<![\w\u0980-\u09ff])(?:{listed['denying']}){_END}", re.IGNORECASE),
         re.compile(
             rf".*\d.*?[,;.:]? (?:(?:{listed['correcting']})[,:;.]? )+"
-            r"(?P<rest>[-+−]?[.,]?\d[^,;]*|[(\[][^()\[\]]*\d[^()\[\]]*[)\]])",
+            r"(?P<rest>[-+−]?[.,]?\d[^,;(]*|[(\[][^()\[\]]*\d[^()\[\]]*[)\]])"
+            r"(?: ?\([^()\d]+\))?",
             re.IGNORECASE | re.DOTALL,
         ),
         re.compile(
@@ -303,6 +304,12 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
     text = _IN_UNIT.sub(r" \1", text)
     if text != named_by:
         yield text
+    parameter = _PARAMETER_BEHIND.fullmatch(text)
+    tail = _SO_WHAT.search(text)
+    if parameter:
+        yield parameter[1]
+    if tail and not is_denied(tail[0]):
+        yield text[: tail.start()]
     same = _SAME_VALUE.fullmatch(text)
     if same:
         yield f"{same[1]} = {same[2]}"
@@ -318,6 +325,8 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
         return
     behind = _WORD.search(words[1])
     named = behind is not None and behind[0].lower() not in around.leading_on
+    remarked_on = words[1].startswith((",", ";")) and form == "number"
+    named = named and not remarked_on
     if not found[0][-1].isdigit() or not (named or (behind and form == "quantity")):
         yield found[0]
 
@@ -346,7 +355,8 @@ _STEPS = re.compile(r"(?=[^,;]*\d[^,;]*=).*\d.*[,;] (?P<rest>[^,;]*\d[^,;]*)", r
 _DERIVED = re.compile(r"(?=.*[=√+*/]).*\d.*(?:->|→|=>|⇒) *(?P<rest>[^<>→⇒]*\d[^<>→⇒]*)", re.DOTALL)
 """A value behind the arrow at the end of a derivation."""
 _ARROWED = re.compile(
-    r"[-+\d][-+\d\s.,]*(?:(?:->|→|=>|⇒)[-+\d\s.,]+)*(?:->|→|=>|⇒) *(?P<rest>[-+]?\d[^<>→⇒]*)"
+    r"[-+\d][-+\d\s.,]*(?:(?:->|→|=>|⇒)[-+\d\s.,]+)*(?:->|→|=>|⇒) *"
+    r"(?:[^\W\d_]{2,} ){0,4}(?P<rest>[-+]?\d[^<>→⇒]*)"
 )
 """A value behind an arrow from numbers, ``320 -> 64 -> 32``."""
 
@@ -358,8 +368,11 @@ def find_conclusion(typed: str) -> str:
     return remarked[1] if remarked else next(_find_conclusion(text), "")
 
 
-_PARAMETER_BEHIND = re.compile(r"([-+−]?\d[\d.,]*(?: ?[^\W\d]\S*)?) ?\([^\W\d_]{1,3} ?= ?\d+\)")
-"""A value with what it depends on, ``2.45 (df = 6)``."""
+_PARAMETER_BEHIND = re.compile(
+    r"([-+−]?\d[\d.,]*(?: ?[^\W\d]\S*)?)"
+    r" ?\([^\W\d_]{1,3}(?:_?\w)? ?[=≈] ?\d[\d.,]*(?: ?[^\W\d_]{1,4})?\)"
+)
+"""A value with what it depends on, ``2.45 (df = 6)``, ``1.6 (H = 24 m)``."""
 
 
 def _is_idle_remark(words: str) -> bool:
@@ -370,6 +383,8 @@ def _is_idle_remark(words: str) -> bool:
     )
 
 
+_SO_WHAT = WordPattern(r"[,;] «so» [^\d=,;]*$", re.IGNORECASE)
+"""What follows from a value in words: ``q = 16, so longer``."""
 _ASSUMED = WordPattern(r"^.{1,60}?\d.{0,30}? «assumed-behind»,? (?=.*\d)", re.IGNORECASE)
 """What a value was worked out with, in languages that say so behind it: ``1.7 m ধরে 425 px``."""
 _SAME_VALUE = WordPattern(
@@ -414,6 +429,16 @@ def drop_decoration(typed: str, form: AnswerForm) -> str:
         before = text
         text = _drop_once(text, form)
     return text or typed
+
+
+def drop_equal_reason(typed: str) -> str:
+    """Return an answer without a reason that is an equation, which is no side of it: ``2, da ...``.
+
+    Any other reason is dropped where the answer cannot be read as it stands.
+    """
+    reason = _load_around_words().reason.search(typed) if "=" in typed else None
+    head = typed[: reason.start()] if reason else ""
+    return head if any(map(str.isdigit, head)) and "=" in typed[len(head) :] else typed
 
 
 def drop_transposed(typed: str) -> str:

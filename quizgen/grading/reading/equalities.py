@@ -164,7 +164,14 @@ def _give_units(sides: list[EqualitySide]) -> Iterator[EqualitySide]:
     for side in reversed(sides):
         own = side.quantity.unit
         unit = own if own and own.text != "%" else unit
-        yield EqualitySide(TypedQuantity(side.quantity.number, own or unit), side.readings)
+        given = None if _is_in_radians(side, unit) else unit
+        yield EqualitySide(TypedQuantity(side.quantity.number, own or given), side.readings)
+
+
+def _is_in_radians(side: EqualitySide, unit: TypedUnit | None) -> bool:
+    """Return whether a side is a multiple of π beside one in degrees: ``60° = π/3``."""
+    in_degrees = unit is not None and unit.text in _DEGREES
+    return in_degrees and bool(re.search(r"π|\bpi\b", side.quantity.number.text))
 
 
 def _split_at_equal_signs(source: SourceText) -> Iterator[SourceText]:
@@ -241,9 +248,13 @@ def _check_sides_agree(source: SourceText, sides: list[EqualitySide]) -> None:
 
 
 def _is_rounded_to(source: SourceText, before: EqualitySide, side: EqualitySide) -> bool:
-    """Return whether a whole number behind an arrow or ≈ rounds what is before it: ``2.8 → 3``."""
+    """Return whether a whole number rounds what is worked out before it, or behind an arrow or ≈.
+
+    ``sqrt(1000) = 32`` and ``2.8 → 3`` are such, ``31.6 = 32`` is not.
+    """
     whole = side is not before and side.readings.main.form == "integer"
-    if not whole or not _ROUNDED.search(source.text):
+    worked = before.readings.main.form == "expression" and abs(side.readings.main.value) >= _SHARP
+    if not whole or not (worked or _ROUNDED.search(source.text)):
         return False
     (a, _), (b, _) = _convert_to_base_units(before), _convert_to_base_units(side)
     unit = side.quantity.unit.factor if side.quantity.unit else fmpq(1)
@@ -266,6 +277,11 @@ def _is_in_base_units(first: EqualitySide, second: EqualitySide) -> bool:
     )
 
 
+_DEGREES = frozenset({"deg", "°"})
+_RADIAN = fmpq(17453292519943296, 10**18)
+"""A degree in radians, as near as sides of a chain are compared."""
+_SHARP = 10
+"""Whole numbers from here on may round what was worked out."""
 _WORKED_OUT = re.compile(r"\d ?[*/^] ?\d")
 _ROUNDED = re.compile(r"(?:→|->|≈|=>|⇒) ?[-−]?\d+(?![.,]?\d)[^\d=]*$")
 
@@ -303,6 +319,13 @@ def _is_equal_side(first: EqualitySide, second: EqualitySide) -> bool:
     if one is not None and other is not None and one.dimension != other.dimension:
         return False
     (a, near), (b, close) = _convert_to_base_units(first), _convert_to_base_units(second)
+    degrees = [unit is not None and unit.text in _DEGREES for unit in (one, other)]
+    if (one is None or other is None) and any(degrees):
+        x, y = (
+            side * _RADIAN if turned else side for side, turned in zip((a, b), degrees, strict=True)
+        )
+        if abs(x - y) <= _CLOSE * abs(y):
+            return True
     return bool(abs(a - b) <= max(near, close, key=float) or abs(a - b) <= _CLOSE * abs(b))
 
 

@@ -336,7 +336,8 @@ _PLAIN = "|".join(
 _CALL = re.compile(
     rf"(?<![^\W\d_])(?P<name>{_PLAIN})(?![^\W\d_{_GREEK}]) ?"
     r"(?:(?:\^|\*\*) ?(?:(?P<power>\d+)|\((?P<signed>-?\d+)\)|(?P<minus>-\d+)) ?)?"
-    rf"(?P<bare>(?<= )(?:\d+(?:[.,]\d+)? ?)?[^\W\d]\w*'*|(?<= )\d+(?:[.,]\d+)?|\d*[{_GREEK}]\w*'*)?"
+    rf"(?P<bare>(?<= )(?:\d+(?:[.,]\d+)? ?)?[^\W\d]\w*'*|(?<= )\d+(?:[.,]\d+)?|\d*[{_GREEK}]\w*'*"
+    r"|(?<![\d ])\d+[a-z](?![\w(]))?"
 )
 _GOES_ON = re.compile(r" ?(?:[\w({\[√|/:^°']|\*\*)")
 _DEGREES = re.compile(r" ?°")
