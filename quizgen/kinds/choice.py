@@ -367,8 +367,7 @@ def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:
         return reasoned
     text = typed.strip(_AROUND)
     head, _, remark = text.partition(",")
-    values = all(_VALUE.fullmatch(option.replace("\xa0", " ")) for option in spec.choices())
-    places = [] if values else _read_places(head.strip(), len(spec.choices()))
+    places = _find_places(spec, head.strip())
     told = _find_wording(spec, remark or text) if places else 0
     if places and told in {0, *places} and not says_otherwise(remark):
         return places
@@ -379,6 +378,26 @@ def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:
         return []
     position = LETTERS.find(named["mark"]) + 1
     return [position] if position <= len(spec.choices()) else []
+
+
+def _find_places(spec: ChoiceSpec, text: str) -> list[int]:
+    """Return the options that are meant by ``the second``: the one that says so, or at this place.
+
+    Values have no place: the second one may be the second number of the question.
+    """
+    ordinals = [{*map(list_ordinals().get, re.findall(r"\w+", one.casefold()))} - {None}
+                for one in spec.choices()]  # fmt: skip
+    if any(ordinals):
+        said = {*map(list_ordinals().get, re.findall(r"\w+", text.casefold()))} - {None}
+        named = [place for place, one in enumerate(ordinals, 1) if said and one == said]
+        return named if len(named) == 1 and len(text.split()) <= _FEW_WORDS else []
+    if all(_VALUE.fullmatch(option.replace("\xa0", " ")) for option in spec.choices()):
+        return []
+    return _read_places(text, len(spec.choices()))
+
+
+_FEW_WORDS = 4
+"""Words of an answer that names an option by its ordinal."""
 
 
 def _find_initial(spec: ChoiceSpec, letter: str) -> list[int]:
