@@ -170,7 +170,7 @@ def _prepare(typed: str, form: AnswerForm, names: AskedNames) -> str:
     if form == "word":
         return drop_bullets(drop_markup(typed))
     if form in {"number", "quantity"}:
-        return drop_equal_reason(typed)
+        return prove_groups(drop_equal_reason(typed))
     return drop_markup(typed) if form == "option" else typed
 
 

@@ -23,7 +23,12 @@ from quizgen.grading.judging.wordings import (
 )
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, is_denied, says_otherwise
-from quizgen.grading.reading.normalise import BANGLA_LETTERS, PICTURES, normalise_typed
+from quizgen.grading.reading.normalise import (
+    BANGLA_DIGITS,
+    BANGLA_LETTERS,
+    PICTURES,
+    normalise_typed,
+)
 from quizgen.grading.reading.units import read_unit
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
@@ -72,8 +77,9 @@ _TRUTH_FIRST = WordPattern(
 )
 """*Yes* or *false* with a reason behind it; ``0.5`` is neither."""
 _TRUTH_CORRECTED = WordPattern(
-    r"(?P<head>[^\s,;:.(…]+)(?:[,;:.… ]+(?:«choices.correcting»)|[,;:.…]+ ?(?!\d)«choices.false»)"
-    r"[,;:.… ]+(?P<rest>.+)"
+    r"(?P<head>[^\s,;:.(…]+)"
+    r"(?:[,;:.… ]+(?:«choices.correcting»)[,;:.… ]+|[,;:.…]+ ?(?!\d)«choices.false»[,;:.…] ?)"
+    r"(?P<rest>.+)"
 )
 """A verdict taken back for another one: ``false... no, true``."""
 _OPEN = re.compile(r"\.\.|…|\?")
@@ -238,7 +244,10 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
     FormulaReadError
         If there is none.
     """
-    typed = _ARE_TRUE.sub("", typed.rstrip(" ;,✓✔."))
+    typed = _ARE_TRUE.sub("", typed.rstrip(" ;,✓✔.")).translate(BANGLA_DIGITS)
+    explained = _LETTER_BECAUSE.fullmatch(typed) if spec.kind == "choice" else None
+    if explained and explained["mark"] in _list_letters(spec):
+        typed = explained["mark"]
     listed = _LETTERS_LAST.fullmatch(typed) if spec.kind == "multi" else None
     if listed and not is_denied(listed["words"]) and not says_otherwise(listed["words"]):
         typed = listed["letters"]
@@ -255,7 +264,8 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
         read = read or _read_positions(spec, typed)
     except FormulaReadError:
         meant = _find_worded_options(spec, typed) or _find_named_option(spec, typed)
-        same = 0 if meant else find_same_formula(typed, spec.choices())
+        unclear = meant or _ALTERNATIVE.search(typed) or is_denied(typed)
+        same = 0 if unclear else find_same_formula(typed, spec.choices())
         if not (meant or same):
             raise
         return meant or [same]
@@ -286,6 +296,7 @@ def _read_beside_denied(spec: ChoiceSpec, typed: str) -> list[int]:
     A remark in brackets behind them says nothing against them.
     """
     match = _BESIDE_DENIED.fullmatch(typed.strip(_AROUND)) or _LETTERS_REMARKED.fullmatch(typed)
+    match = match or _LETTERS_AND_OUT.fullmatch(typed)
     if match is None or says_otherwise(match.groupdict().get("remark") or ""):
         return []
     try:
@@ -303,11 +314,24 @@ _BESIDE_DENIED = WordPattern(
     rf"(?:,|;| «choices.but») (?P<out>{_LETTERS}) (?:«choices.are» )?«choices.no-option»",
     re.IGNORECASE,
 )
+_LETTER_BECAUSE = WordPattern(
+    r"(?P<mark>[A-Z])[,.:;)]? (?:«choices.because»)(?!\w)[^A-Z]*(?:[A-Z][^A-Z\s.,;:][^A-Z]*)*",
+    re.DOTALL,
+)
+"""A letter with its reason, in which no other letter stands alone."""
 _LETTERS_LAST = re.compile(r"(?P<words>[^:]*[^\W\d_]{3}[^:]*): ?(?P<letters>[A-Z](?:[ ,;]+[A-Z])*)")
 """Letters behind words that say why."""
 _LETTERS_REMARKED = WordPattern(
     r"(?P<kept>[A-Z](?:(?:[, ]+|,? «and» )[A-Z])*) \((?P<remark>[^()]{3,})\)"
 )
+_LETTERS_AND_OUT = WordPattern(
+    r"(?P<kept>[A-Z](?:(?:[, ]+|,? (?:«and»|«and-in-latin») )[A-Z])*)"
+    r"(?: «choices.right-behind»| «choices.are» «choices.right»)?"
+    r"(?: [-–—]|[,;]) (?:«choices.only» )?"
+    r"(?P<out>[A-Z](?:(?:[, ]+|,? (?:«and»|«and-in-latin») )[A-Z])*)"
+    r" (?:(?:«choices.are» )?(?:«choices.wrong»|«choices.no-option»))(?![^\W\d_])(?P<why>.*)"
+)
+"""All letters, those that are chosen and those that are not: ``A, C – only B is wrong``."""
 
 
 def _read_listed(spec: ChoiceSpec, typed: str) -> list[int]:
@@ -369,7 +393,7 @@ def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:
     head, _, remark = text.partition(",")
     places = _find_places(spec, head.strip())
     told = _find_wording(spec, remark or text) if places else 0
-    if places and told in {0, *places} and not says_otherwise(remark):
+    if places and told in {0, *places} and not (says_otherwise(text) or is_denied(text)):
         return places
     if len(text) == 1 and (initial := _find_initial(spec, text)):
         return initial
@@ -439,7 +463,7 @@ def _read_places(text: str, count: int) -> list[int]:
     """Return the places of ``the fourth``, ``the last one``, ``the first two``; none of others."""
     idle = set_of_words("articles") | set_of_words("choices.place-nouns")
     words = [word for word in text.casefold().split() if word not in idle]
-    if len(words) == len(("second", "camera")) and words[1].isalpha() and not read_count(words[1]):
+    if len(words) == len(("second", "camera")) and words[1].isalpha() and read_count(words[1]) < 0:
         words = [one for one in words[:1] if list_ordinals().get(one)] or words
     counted = [list_ordinals().get(word, 0) for word in words]
     if len(words) == 1 and words[0] in set_of_words("choices.last"):
@@ -576,7 +600,9 @@ def _read_last_word(spec: ChoiceSpec, typed: str) -> list[int]:
     for shape in (_CORRECTED, _SECOND_THOUGHT):
         match = shape.fullmatch(text)
         last = _read_plainly(spec, match["rest"]) if match else 0
-        if match and last and (shape is _SECOND_THOUGHT or _read_plainly(spec, match["head"])):
+        head = match["head"] if match else ""
+        first = _read_plainly(spec, head) or _read_plainly(spec, head.rpartition(" ")[2])
+        if last and (shape is _SECOND_THOUGHT or first):
             return [last]
     match = _CONCLUDED.fullmatch(text)
     last = _read_plainly(spec, match["rest"]) if match else 0
@@ -683,7 +709,8 @@ def _read_truth_value(spec: ChoiceSpec, typed: str) -> int:
             raise FormulaReadError("two-readings", 1, safe_echo(typed))
         text = labelled["words"] if second else text
     word = _IT_IS.sub("", text.strip(_AROUND)).casefold()
-    found = read_truth(text) or _find_option_by_text(spec, typed)
+    found = 0 if "?" in text and word.count(" ") else read_truth(text)
+    found = found or _find_option_by_text(spec, typed)
     if found or word in {"a", "b"}:
         return found or "ab".index(word) + 1
     raise FormulaReadError("true-or-false", 1, safe_echo(typed))
@@ -701,7 +728,9 @@ def read_truth(text: str) -> int:
         return found
     corrected = _TRUTH_CORRECTED.fullmatch(word)
     if corrected and _find_truth_word(corrected["head"]) and not _OPEN.search(corrected["rest"]):
-        return read_truth(corrected["rest"])
+        last = read_truth(corrected["rest"])
+        if last:
+            return last
     if _ALTERNATIVE.search(_TRUTH_FIRST.sub(r"\g<first>", word)):
         return 0
     denied = _DENIED_FIRST.fullmatch(word)
@@ -789,13 +818,21 @@ def _parse_labelled_option(spec: ChoiceSpec, piece: str) -> int:
     if not 1 <= position <= len(spec.choices()):
         return 0
     if not meant:
-        return position if _is_own_reason(spec, position, mark, match["words"]) else 0
+        own = _is_own_reason(spec, position, mark, match["words"])
+        return position if own or _is_called_otherwise(match) else 0
     if text.startswith("a "):  # the article of "a smaller spot", and no letter
         return meant[0] if len(meant) == 1 else 0
     whole = _find_wording(spec, text) if mark.isdecimal() and not _SET_OFF.search(text) else 0
     if not whole and position not in meant:
         raise FormulaReadError("two-readings", 1, safe_echo(piece))
     return whole or position  # the number of "4 times as much" is no place
+
+
+def _is_called_otherwise(match: re.Match[str]) -> bool:
+    """Return whether one word stands before a letter in brackets: ``Moiré (F)``."""
+    words = match["words"]
+    behind = match.re is _BEHIND and match["mark"].isupper()
+    return behind and not (is_denied(words) or _ALTERNATIVE.search(words) or " " in words)
 
 
 def _is_own_reason(spec: ChoiceSpec, position: int, mark: str, words: str) -> bool:
@@ -840,6 +877,13 @@ def _find_option_by_text(spec: ChoiceSpec, typed: str) -> int:
         for place, option in enumerate(texts, 1)
         if fold_word(option) == folded
     } or _find_rounded_values(typed, spec.choices())
+    if not hits and "=" in typed:
+        last = fold_word(typed.rpartition("=")[2])
+        hits = {
+            place
+            for place, option in enumerate(spec.choices(), 1)
+            if fold_word(option) == last and any(map(str.isdigit, last))
+        }
     return hits.pop() if len(hits) == 1 else 0
 
 

@@ -73,7 +73,7 @@ class CodeSpec(WordSpec, kw_only=True, frozen=True):
             raise FormulaReadError("two-readings", 1, safe_echo(given))
         given = _TAIL.sub("", given)
         note = _note(self, given)
-        if note in SET_OTHERWISE:
+        if note in SET_OTHERWISE or _same_but_for_points(given, fold_blanks(self.output)):
             return partial(HALF, safe_echo(given), note)
         return wrong(safe_echo(given), note)
 
@@ -82,7 +82,7 @@ class CodeSpec(WordSpec, kw_only=True, frozen=True):
         return self.output
 
 
-SET_OTHERWISE = frozenset({"output-brackets", "output-separators"})
+SET_OTHERWISE = frozenset({"output-brackets", "output-separators", "output-type"})
 """Notes on output whose values are right: it earns half."""
 
 _BRACKETS = re.compile(r"[\[\](){}]")
@@ -200,8 +200,19 @@ def _written_otherwise(given: str, wanted: str) -> str:
 
 
 def _values(text: str) -> str:
-    """Return what is printed, without brackets and commas."""
-    return _SEPARATORS.sub(" ", text).strip()
+    """Return what is printed, without brackets, commas and names of the values."""
+    return _SEPARATORS.sub(" ", _NAMES.sub("", text)).strip()
+
+
+_NAMES = re.compile(r"(?<![\w'\"])[^\W\d]\w* ?=(?!=) ?")
+
+
+def _same_but_for_points(given: str, wanted: str) -> bool:
+    """Return whether only the type of numbers differs, ``(45, 21)`` for ``(45.0, 21.0)``."""
+    return given != wanted and _POINT_NOUGHT.sub("", given) == _POINT_NOUGHT.sub("", wanted)
+
+
+_POINT_NOUGHT = re.compile(r"(?<=\d)\.0?(?![\d])")
 
 
 def _same_numbers(given: str, wanted: str) -> bool:

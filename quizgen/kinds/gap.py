@@ -512,6 +512,8 @@ def _judge_by_nearest_term(spec: GapSpec, word: str, gap: list[str], others: lis
     near, _ = nearest_terms(word, [*gap, *others])
     if not near and len(listed := [piece for piece in _LISTED.split(word) if piece]) > 1:
         near, _ = nearest_terms(" ".join(listed), [*gap, *others])
+    if not near:
+        near = _find_misspelt_last(word, [*gap, *others])
     meant = not near and _says_otherwise(spec, word, gap, others)
     if meant:
         return correct(safe_echo(word))
@@ -525,6 +527,20 @@ def _judge_by_nearest_term(spec: GapSpec, word: str, gap: list[str], others: lis
     if all(is_another_word(word, term, spec.terms) for term in near):
         return ambiguous("another-word", safe_echo(word))
     return correct(safe_echo(near[0]), "spelling", typed=word)
+
+
+def _find_misspelt_last(word: str, terms: list[str]) -> list[str]:
+    """Return the terms nearest to the last of a few idle words, ``it looks blak``."""
+    before, _, last = word.rpartition(" ")
+    few = 0 < len(before.split()) <= MOST_COMPANY
+    if not few or len(fold_word(last)) < LEAST_MISSPELT or says_otherwise(before):
+        return []
+    near, distance = nearest_terms(last, terms)
+    return near if distance and not is_denied(before) else []
+
+
+LEAST_MISSPELT = 4
+"""Letters of a word in which a slip is looked for."""
 
 
 def _says_otherwise(spec: GapSpec, word: str, gap: list[str], others: list[str]) -> bool:

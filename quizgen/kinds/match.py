@@ -15,7 +15,13 @@ from quizgen.grading.judging.spelling import fold_word
 from quizgen.grading.judging.wordings import find_wording, find_wording_in, holds_wording
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, is_denied
-from quizgen.grading.reading.normalise import BANGLA_LETTERS, LONE_LETTER, PICTURES, normalise_typed
+from quizgen.grading.reading.normalise import (
+    BANGLA_DIGITS,
+    BANGLA_LETTERS,
+    LONE_LETTER,
+    PICTURES,
+    normalise_typed,
+)
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, correct, verdict_by_share
 from quizgen.kinds.asking import assign_letters, make_spec
@@ -432,7 +438,6 @@ def _find_named_side(spec: MatchSpec, words: str) -> str:
 MOST_WORDS = 12
 """Words of a pair that nothing parts."""
 _NUMBERED_SIDE = WordPattern(r"(?:(?:«pictures»|«choices.numbered») )?(\d)", re.IGNORECASE)
-BANGLA_DIGITS = str.maketrans("০১২৩৪৫৬৭৮৯", "0123456789")
 
 
 def _find_right_label(second: str, right: dict[str, str]) -> str:

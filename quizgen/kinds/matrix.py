@@ -94,6 +94,7 @@ class MatrixSpec(EntriesSpec, kw_only=True, frozen=True):
         known = (self.entries, *self.traps.values())
         as_complex = any(isinstance(entry, list) for rows in known for row in rows for entry in row)
         row = _find_row_of_decimals(typed) if len(self.entries) == 1 else ""
+        row = row or _part_digits(typed, len(self.entries[0]))
         rows, read_as = _read_matrix(row or typed, options.decimal, as_complex=as_complex)
         if row and len(rows[0]) != len(self.entries[0]):
             rows, read_as = _read_matrix(typed, options.decimal, as_complex=as_complex)
@@ -139,6 +140,15 @@ def _find_row_of_decimals(typed: str) -> str:
     """Return ``(-4,65; -10,5)`` with ``&`` between its entries; empty for anything else."""
     text = drop_name(typed).strip(" ()[]")
     return text.replace(";", "&") if _ROW_OF_DECIMALS.fullmatch(text) else ""
+
+
+def _part_digits(typed: str, width: int) -> str:
+    """Return ``0010; 1000`` with a blank between its digits, if each row has the width asked."""
+    rows = [row.strip(" []()") for row in re.split(r"[;\n]", typed) if row.strip(" []()")]
+    together = width > 1 and len(rows) > 1 and all(re.fullmatch(r"[0-9]+", row) for row in rows)
+    if not together or {*map(len, rows)} != {width}:
+        return ""
+    return "; ".join(" ".join(row) for row in rows)
 
 
 def _read_matrix(typed: str, decimal: str, *, as_complex: bool) -> tuple[Rows, str]:

@@ -102,6 +102,7 @@ class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
 
     def _read(self, typed: str, options: GradingOptions) -> list[TypedEntry]:
         """Return the typed components; errors as ``judge``."""
+        typed = _HEADING.sub("", typed)
         if self.up_to == "scale":
             typed = _PARAMETER.sub("", _NOT_ZERO.sub("", typed))
         plain = _write_by_axes(typed).replace("\\\\", ";").replace("&", ";")
@@ -149,6 +150,8 @@ class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
         return [round_entry(text, self.tolerance) for text in self.components]
 
 
+_HEADING = re.compile(r"^[^()\[\];]*\d ?[:,] ?(?=[(\[][^()\[\]]+[)\]]\s*$)")
+"""What a vector is for, ``z = 1: (2; -6; 1)``."""
 _PARAMETER = re.compile(r"^\s*(?:[^\W\d_]\w? ?= ?)?[^\W\d_] ?[*·⋅×] ?(?=[(\[])")
 """The letter before a vector that stands for all its multiples: ``t·(1; 2)``."""
 _NOT_ZERO = re.compile(r"(?<=[)\]]),? ?\(?[^\W\d_] ?(?:≠|!=|<>) ?0\)?\s*$")

@@ -17,6 +17,7 @@ from quizgen.bank.variant import Variant
 from quizgen.core.errors import BankError, FormulaError
 from quizgen.grading.judging.statements import used_synonyms
 from quizgen.grading.reading.factor_words import find_bound
+from quizgen.grading.reading.units import read_unit
 from quizgen.kinds import KINDS
 from quizgen.kinds.contract import (
     AskedPart,
@@ -176,9 +177,10 @@ class VariantPart(PartContext):
         if words == "%" or words.casefold() in set_of_words("percent"):
             return ["%"]
         last = words.rpartition(" ")[2]
-        with suppress(FormulaError):
-            self.drawn.template.about.system.unit(last)
-            return [last]
+        with self.drawn.template.about.system.activate():
+            for unit in (words, last):
+                with suppress(FormulaError):
+                    return [read_unit(unit).text]
         return [one for one in (words, last) if len(one) >= SHORTEST_NOUN]
 
     def _nouns(self, things: str | list[str]) -> list[str]:

@@ -163,6 +163,8 @@ LEAST_SOUNDS = 3
 """Consonants by which a word is known."""
 
 
+SHORT = 4
+"""Letters of a word in which two that are exchanged, ``hihg``, are the only slip."""
 MOST = 2
 """Most typing slips allowed in any word."""
 
@@ -215,7 +217,8 @@ def nearest_terms(typed: str, terms: Iterable[str]) -> tuple[list[str], int]:
         if abs(len(target) - len(folded)) > MOST:
             continue
         distance = typo_distance(folded, target, MOST)
-        if distance <= least and distance <= allowed_typos(target):
+        exchanged = distance == 1 and len(target) == SHORT and sorted(folded) == sorted(target)
+        if distance <= least and (exchanged or distance <= allowed_typos(target)):
             best = [term] if distance < least else [*best, term]
             least = distance
     return best, least

@@ -40,7 +40,7 @@ from quizgen.locale.word_patterns import (
 _TOKEN = re.compile(
     r"[-+−]?(?:\d+/)?√?\d+(?:[.,]\d+)?(?:/√?\d+)?|[^\W\d_]+/\d+|(?:[^\W\d_]|[\u0980-\u09ff])+\d*"
 )
-_ROOT = re.compile(r"(?:sqrt|√) ?\(? ?(\d+) ?\)?")
+_ROOT = re.compile(r"(?:sqrt|√|wurzel|root(?: of)?) ?\(? ?(\d+) ?\)?")
 _SHARE = WordPattern(r"\b«wordings.shares»\b")
 _SIGNS = (
     (WordPattern(r"∞|(?<!\S)«wordings.infinity»(?!\S)"), "infinity"),

@@ -250,9 +250,19 @@ def _list_plainer_values(text: str, names: AskedNames, *, ranges: bool) -> Itera
     for given in list_given_lists(text):
         yield given
         yield from separate_labelled_values(given, names)
+    yield from _drop_working(text, names)
     last = _LAST_LIST.fullmatch(text)
     corrected = _load_around_words().correcting.fullmatch(text)
     yield from ([last[1]] if last else [corrected["rest"]] if corrected else [])
+
+
+def _drop_working(text: str, names: AskedNames) -> Iterator[str]:
+    """Yield the values that are asked without others before them: ``f/s = 375, u = 726, v = 9``."""
+    pieces = [piece.strip() for piece in _PARTED.split(text) if piece.strip()]
+    asked = [piece for piece in pieces if find_name(piece.partition("=")[0].strip(), names)]
+    others = [piece for piece in pieces if piece not in asked]
+    if len(asked) == len(names) and others and all("=" in piece for piece in pieces):
+        yield "; ".join(asked)
 
 
 _NOUN_BEHIND = re.compile(r"([=:] ?[-+−]?\d[\d.,/]*) ([^\W\d_]{4,})(?= *(?:[,;\n]|$))")
@@ -281,6 +291,7 @@ def _list_barer_formulas(text: str) -> Iterator[str]:
 
 _ROOT_OF = WordPattern(r"«root-of» ([^\s+*/=-]+)", re.IGNORECASE)
 _ROOT_BEHIND = WordPattern(r"([^\s+*/=-]+?)(?:-| )?«root-behind»")
+_CUBE_ROOT = re.compile(r"∛ ?\(?(\d+(?:[.,]\d+)?)\)?")
 _WORDS_BEHIND = re.compile(
     r" \((?:[^\W\d_]{3,}[ -]?)+\)$|, (?:(?:[^\W\d_]|[\u0981-\u09d7]){2,}[ '’-]?)+$"
 )
@@ -293,6 +304,7 @@ def write_in_signs(typed: str) -> str:
     The blank parts the fraction from what it multiplies.
     """
     typed = _ROOT_BEHIND.sub(r"sqrt(\1)", _ROOT_OF.sub(r"sqrt(\1)", typed))
+    typed = _CUBE_ROOT.sub(r"(\1)^(1/3)", typed)
     return _FRACTION_FACTOR.sub(r"(\1)*", typed)
 
 
@@ -420,7 +432,7 @@ _DISTANCE = WordPattern(
 
 def drop_decoration(typed: str, form: AnswerForm) -> str:
     """Return the answer without characters, marks and words around it that cannot matter."""
-    text = drop_markup(_INVISIBLE.sub("", typed)).strip()
+    text = _write_currency(drop_markup(_INVISIBLE.sub("", typed)).strip())
     text = drop_bullets(text) if not _DASH.match(text) or "\n" in text else text
     if form == "values":
         text = text.translate(dict.fromkeys(map(ord, _QUOTES)))
@@ -429,6 +441,15 @@ def drop_decoration(typed: str, form: AnswerForm) -> str:
         before = text
         text = _drop_once(text, form)
     return text or typed
+
+
+def _write_currency(text: str) -> str:
+    """Return ``$5.20`` with its unit behind it; ``$x$`` is LaTeX."""
+    money = _MONEY.fullmatch(text)
+    return f"{money[2]} {money[1]}" if money else text
+
+
+_MONEY = re.compile(r"([$£€]) ?([-+−]?\d[\d.,]*)")
 
 
 def drop_equal_reason(typed: str) -> str:
@@ -559,7 +580,7 @@ _REMARKED = WordPattern(
 _REMARK = re.compile(r"(?<=\d) ?\([^\W\d][^()\d;,]*\)")
 _MINUS = WordPattern(r"(?<![^\W\d_])«minus» (?=[.,]?\d)", re.IGNORECASE)
 _LAST_LIST = WordPattern(
-    r"(?:.*\d.*|[^(,;]+)(?:=>?|:|→|⇒|->|, «so») ?"
+    r"(?:.*\d.*|[^(,;]+)(?:=>?|:|→|⇒|->|,? «so») ?"
     r"(\([^()=]+\)|\[[^\[\]=]+\]|(?<=[>→⇒] )[-+−]?\d[\d.,]*(?: ?; ?[-+−]?\d[\d.,]*)+)",
     re.DOTALL,
 )
@@ -670,7 +691,7 @@ def _find_mark_worked_out(typed: str) -> str:
     """Return the sign in a product or power that is worked out, ``2^16 = 65.536``."""
     for match in _WORKED_OUT.finditer(typed):
         value = 1
-        for factor in re.split(r"[*·×]", match["work"]):
+        for factor in re.split(r"[*·×x]", match["work"]):
             base, _, power = (piece.strip() for piece in factor.partition("^"))
             value *= int(base) ** min(int(power or 1), _LARGEST_POWER)
         if value == int(re.sub(r"[.,]", "", match["value"])):
@@ -681,7 +702,7 @@ def _find_mark_worked_out(typed: str) -> str:
 _LARGEST_POWER = 64
 _FACTOR = r"\d{1,6}(?: ?\^ ?\d{1,2})?"
 _WORKED_OUT = re.compile(
-    rf"(?P<work>{_FACTOR}(?: ?[*·×] ?{_FACTOR}){{0,6}}) ?= ?"
+    rf"(?P<work>{_FACTOR}(?: ?[*·×x] ?{_FACTOR}){{0,6}}) ?= ?"
     r"(?P<value>\d{1,3}(?P<sign>[.,])\d{3}(?:(?P=sign)\d{3})*)(?![\d.,]?\d)"
 )
 _DECIMAL_BESIDE = re.compile(r"(?<![\d.,])\d+([.,])(?:\d{1,2}|\d{4,})(?![\d.,])")

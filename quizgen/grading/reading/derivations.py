@@ -141,7 +141,7 @@ class DerivationReader:
     ) -> None:
         """Start with the names of the question."""
         self.symbols, self.decimal, self.unit = list(symbols), decimal, unit
-        self._left, self._side = first, ""
+        self._left, self._side, self._typed = first, "", ""
 
     def read(self, typed: str) -> list[DerivedLine]:
         """Return the lines of a text.
@@ -155,7 +155,7 @@ class DerivationReader:
         """
         refuse_long_prose(typed)
         refuse_invisible(SourceText.of(typed.strip("\u200e\u200f\ufeff")), "\r\n\t\u200c\u200d")
-        pieces = [*_split_lines(typed)]
+        self._typed, pieces = typed, [*_split_lines(typed)]
         if not pieces:
             raise FormulaReadError("no-answer", 1)
         if len(pieces) > MOST_LINES:
@@ -312,7 +312,9 @@ class DerivationReader:
         try:
             read_formula(name, names, self.decimal)
         except FormulaReadError:
-            return not any(fold_name(name).lower() == fold_name(one).lower() for one in names)
+            twins = [one for one in names if fold_name(one).lower() == fold_name(name).lower()]
+            # ``d`` beside a declared ``D`` is another letter where both of them are used.
+            return all(re.search(rf"(?<!\w){re.escape(one)}(?!\w)", self._typed) for one in twins)
         return False
 
 

@@ -41,6 +41,8 @@ _REST_OF_ALL = re.compile(r"(?<![\w.,])1 ?[-−–] ?(?=\d[\d.,]* ?%)")
 _NAMED = re.compile(rf"{WORDS}: ?(?=\S)")
 _BRACKETS = re.compile(r"[\[{(]([^\[\]{}()]+)[\])}] ?(?=[^\W\d]|[%°])")
 _LETTER = re.compile(r"[^\W\d_]")
+_HEADED = re.compile(r"\d[^,;]*[,;] +[^\W\d_]{2,}:")
+"""A number and, behind a comma, a heading: what follows is no side of the same chain."""
 _CLOSE = fmpq(1, 200)
 """How far apart the sides of a chain may be, if their last decimals say no more."""
 
@@ -149,9 +151,14 @@ def _iter_lenient_sides(source: SourceText, decimal: str) -> Iterator[EqualitySi
         side = _read_lenient_side(piece, decimal)
         if side is not None:
             sides.append(side)
-        elif not _LETTER.search(piece.text) or (piece is pieces[-1] and len(piece.text) > 3):
+        elif _tells_value(piece.text) or (piece is pieces[-1] and len(piece.text) > len("max")):
             return
     yield from reversed([*_give_units(sides)])
+
+
+def _tells_value(side: str) -> bool:
+    """Return whether a side that cannot be read is no name: digits, or a value and a heading."""
+    return not _LETTER.search(side) or _HEADED.search(side) is not None
 
 
 def _give_units(sides: list[EqualitySide]) -> Iterator[EqualitySide]:

@@ -40,6 +40,7 @@ _JOINTS = tuple(
     )
 )
 _TO = WordPattern(r" +«to» +", re.IGNORECASE)
+_TO_BEHIND = WordPattern(r" +«to-behind»$", re.IGNORECASE)
 _BETWEEN = re.compile(r" *[<≤] *[^\W\d_]\w* *[<≤] *")
 _DASH = re.compile(r" +[-–—] +| *[–—] *")
 _DASHES = re.compile(r" *[-–—] *")
@@ -87,7 +88,7 @@ def rejoin_values(text: str, count: int, *, ranges: bool = False) -> Iterator[st
     for joint in _JOINTS:
         yield from _cut_at(joint, text, count)
     if count == _PAIR and ranges:
-        yield from _cut_at(_TO, text, count)
+        yield from _cut_at(_TO, _TO_BEHIND.sub("", text), count)
         yield from _cut_at(_BETWEEN, text, count)
         yield from _cut_range(text)
     if count > _PAIR and not re.search(r"[;,\s]", text):

@@ -21,6 +21,8 @@ _ROWS_IN_BRACKETS = re.compile(r"(?:[(\[][^()\[\]]*[;|][^()\[\]]*[)\]]\s*[,;]?\s
 """Rows whose entries are parted by what parts rows elsewhere: ``(12; -14), (14; 27)``."""
 _BRACKETS_BETWEEN = re.compile(r"(?<=[)\]])\s*[,;]?\s*(?=[(\[])")
 _NAME = re.compile(r"^\s*[^\W\d_]\w{0,9}\s*=\s*(?=\S)")
+_DECIMAL_COMMAS = re.compile(r"[-+−]?\d+(?:,\d+)?(?: +[-+−]?\d+(?:,\d+)?)+")
+"""Entries with decimal commas between blanks, ``22,5 -19,4``."""
 _ENTRIES = re.compile(r"\s*&\s*|,\s+|\t+")
 
 
@@ -75,6 +77,8 @@ def _split_row(row: str, decimal: str) -> list[str]:
     """Cut a row at ``&``, at commas before a blank, else at blanks and separating commas."""
     if _ENTRIES.search(row):
         return _ENTRIES.split(row)
+    if _DECIMAL_COMMAS.fullmatch(row):
+        return row.split()
     if "," in row and (decimal != "comma" or " " not in row):
         return row.split(",")
     return row.split()

@@ -28,6 +28,7 @@ _BLANKS = "\t \u00a0\u2000-\u200a\u202f\u205f\u3000"
 
 
 BANGLA_LETTERS = str.maketrans("কখগঘঙচছজঝঞ", "ABCDEFGHIJ")
+BANGLA_DIGITS = str.maketrans("০১২৩৪৫৬৭৮৯", "0123456789")
 """Letters that count options in Bangla, and the Latin ones in the same places."""
 
 LONE_LETTER = re.compile("(?<![\u0980-\u09ff])[ক-ঞ](?![\u0980-\u09ff])")
