@@ -24,7 +24,7 @@ import msgspec
 
 from quizgen.core.errors import QuizgenError
 from quizgen.core.trusted_files import find_trusted_file
-from quizgen.grading.reading.answer_reader import write_in_signs
+from quizgen.grading.reading.answer_reader import drop_reason, write_in_signs
 from quizgen.grading.reading.formulas import read_formula
 from quizgen.grading.reading.matrices import split_matrix
 from quizgen.maths.notation import FormulaReadError
@@ -226,7 +226,7 @@ def read_as_sympy(typed: str, symbols: str | Iterable[str], *, log: str = "") ->
     from quizgen.grading.judging.sympy_equality import to_sympy
 
     names = symbols.split() if isinstance(symbols, str) else list(symbols)
-    written = write_in_signs(typed)
+    written = write_in_signs(drop_reason(typed))
     found = to_sympy(read_formula(written, names, log=log).tree, frozenset(), real=False)
     if found.has(nan, zoo, oo):
         raise FormulaReadError("no-value", 1, typed)

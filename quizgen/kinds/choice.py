@@ -62,6 +62,8 @@ _LABELLED = re.compile(
     r"[\[(]?(?P<mark>[A-Za-zক-ঞ]|\d{1,2})(?:[\])]? ?[).:=,-]+ ?|[\])] ?| (?!\())(?P<words>\S.+)"
 )
 _BEHIND = re.compile(r"(?P<words>.{2,}?) ?[\[(](?P<mark>[A-Za-zক-ঞ])[\])]")
+_NOUN_AHEAD = re.compile(r"^[^\W\d_]{3,} (?=[A-Z] ?: )")
+"""What options are, before the letter of one: ``camera A: (1; 1)``."""
 _FILLING = WordPattern(r"^«choices.option» ", re.IGNORECASE)
 _IT_IS = WordPattern(r"^(?:«choices.it»(?: «choices.is»|'s)?|«choices.is») ", re.IGNORECASE)
 _DENIED = WordPattern(
@@ -264,6 +266,9 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
         read = read or _read_positions(spec, typed)
     except FormulaReadError:
         meant = _find_worded_options(spec, typed) or _find_named_option(spec, typed)
+        last = typed.rpartition("=")[2].strip() if spec.kind == "choice" else ""
+        if not meant and last != typed and any(map(str.isdigit, last)) and " " in last:
+            meant = _find_worded_options(spec, last)
         unclear = meant or _ALTERNATIVE.search(typed) or is_denied(typed)
         same = 0 if unclear else find_same_formula(typed, spec.choices())
         if not (meant or same):
@@ -479,7 +484,7 @@ def _read_places(text: str, count: int) -> list[int]:
 
 
 _LETTER_AHEAD = WordPattern(
-    r"[\[(]?(?P<mark>[A-Z]|[a-z](?=[\]),:;]))[\])]?(?: ?[,:;.–-] ?| (?=\())"
+    r"[\[(]?(?P<mark>[A-Z]|[a-z](?=[\]),:;]| \())[\])]?(?: ?[,:;.–-] ?| (?=\())"
     r"\(?(?!«choices.doubts»(?!\w))(?P<reason>\S[^()]{6,}?)\)?",
     re.DOTALL,
 )
@@ -808,7 +813,7 @@ def _parse_labelled_option(spec: ChoiceSpec, piece: str) -> int:
         If the words are those of another option than the letter.
     """
     text = normalise_typed(piece, keep_x=True, longest=1000).text.strip(_QUOTED)
-    bare = _FILLING.sub("", text)
+    bare = _NOUN_AHEAD.sub("", _FILLING.sub("", text))
     match = _LABELLED.fullmatch(bare) or _BRACKETED.fullmatch(bare) or _BEHIND.fullmatch(text)
     if match is None:
         return 0

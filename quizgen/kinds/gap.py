@@ -517,7 +517,7 @@ def _judge_by_nearest_term(spec: GapSpec, word: str, gap: list[str], others: lis
     meant = not near and _says_otherwise(spec, word, gap, others)
     if meant:
         return correct(safe_echo(word))
-    if not near and _holds_a_term(word, [*gap, *others]):
+    if not near and "+" not in word and _holds_a_term(word, [*gap, *others]):
         return unreadable("words-around", safe_echo(word))
     hits = {term in gap for term in near}
     if hits == {True, False}:

@@ -146,7 +146,10 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
         if self.counts:
             return ""
         share = read_share(typed) if 0 < parse_exact(self.value) < 1 else ""
-        factor = share or read_factor(typed.rpartition("=")[2])
+        before, _, last = typed.rpartition("=")
+        factor = share or read_factor(last)
+        if before and factor.startswith("1/"):  # (8/4)^2 = 4 times less
+            return ""
         return "" if self.percent and "/" not in factor else factor
 
     @property

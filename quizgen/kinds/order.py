@@ -299,13 +299,18 @@ def _read_labels(spec: OrderSpec, typed: str) -> list[str]:
     if _TIED.search(source.text.strip()):
         raise FormulaReadError("label-expected", 1, safe_echo(typed), list(known.values()))
     words = _parse_numbered_lines(source.text) or _split_words(source.text, known)
-    if len(words) == 1 and fold_word(words[0]) not in known:
-        words = list(words[0])
+    if words and not any(fold_word(word) in known for word in words) and _are_runs(words):
+        words = list("".join(words))  # EHDB CFGA
     found = [_find_label(word, known) for word in words]
     for label in found:
         if found.count(label) > 1:
             raise FormulaReadError("used-twice", 1, label)
     return found
+
+
+def _are_runs(words: list[str]) -> bool:
+    """Return whether labels are run together: in one word, or in several of capitals."""
+    return len(words) == 1 or all(word.isalpha() and word.isupper() for word in words)
 
 
 def _read_otherwise(spec: OrderSpec, typed: str, *, twice: bool) -> list[str]:

@@ -42,6 +42,8 @@ MOST_HELD = 500
 """Relations for which a world remembers whether they hold."""
 SHARP_PLACES = 3
 """Decimals from which on a number is taken for a rounded one, not for a given one."""
+LEAST_DIGITS = 2
+"""Units of its last place that a rounded decimal has at least: 0.02 for 0.0203, not 0.01."""
 SHARP_FIGURES = 3
 """Figures from which on a decimal is."""
 
@@ -238,6 +240,8 @@ def _agree_when_rounded(relation: Relation, a: Value, b: Value) -> bool:
     units = [unit for unit in map(_last_place, (relation.left, relation.right)) if unit]
     if any(2 * far <= unit and size >= 10 * unit for unit in units):
         return True
+    if units and size < min(units, key=float) * LEAST_DIGITS:
+        return False
     if any(far <= unit for unit in units) or (relation.near and not units):
         return bool(far <= size * ROUNDED)
     return _has_rounded_number(relation) and bool(far <= size * RECKONED)

@@ -331,7 +331,7 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
     clock = _CLOCK.fullmatch(text)
     if clock:
         yield add_mixed_units(f"{int(clock[1])} h {int(clock[2] or clock[3])} min")
-    found, words = scan_numbers(text)
+    found, words = scan_numbers(_NUMBERED_WORD.sub(r"\1", text))
     words = [*words[:-1], _DISTANCE.sub(" ", words[-1])]
     if len(found) != 1 or found[0] == text or not _can_be_dropped(words):
         return
@@ -345,7 +345,14 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
 
 def _find_conclusion(text: str) -> Iterator[str]:
     """Yield the number that is concluded at the end: ``2^3 = 8, so 3 bits``."""
-    for shape in (_CONCLUDED, _DERIVED, _ARROWED, _STEPS, _load_around_words().correcting):
+    for shape in (
+        _CONCLUDED,
+        _DERIVED,
+        _ARROWED,
+        _STEPS,
+        _STEPS_NAMED,
+        _load_around_words().correcting,
+    ):
         concluded = shape.fullmatch(text)
         if concluded and not says_otherwise(concluded["rest"]):
             yield add_mixed_units(concluded["rest"].rpartition("=")[2].strip() or text)
@@ -364,6 +371,10 @@ _CONCLUDED = WordPattern(
 )
 _STEPS = re.compile(r"(?=[^,;]*\d[^,;]*=).*\d.*[,;] (?P<rest>[^,;]*\d[^,;]*)", re.DOTALL)
 """A value that ends steps with commas between them, ``56*100 = 5600, 5600^2 = 31 MP``."""
+_STEPS_NAMED = re.compile(
+    r"[^\W\d_]\w* ?= ?[-\d.,/ ]+[,;] (?P<rest>[-+(]*\d[^,;=]*[*/+^(][^;=]*= ?[-+]?\d[^,;=]*)"
+)
+"""A formula worked out behind a value that it needs, ``h = 0.4, 0.4*(1 + 2) = 1.2``."""
 _DERIVED = re.compile(r"(?=.*[=√+*/]).*\d.*(?:->|→|=>|⇒) *(?P<rest>[^<>→⇒]*\d[^<>→⇒]*)", re.DOTALL)
 """A value behind the arrow at the end of a derivation."""
 _ARROWED = re.compile(
@@ -395,6 +406,8 @@ def _is_idle_remark(words: str) -> bool:
     )
 
 
+_NUMBERED_WORD = re.compile(r"(?<![^\W_])([a-z]{3,})\d+(?![\w.,])", re.IGNORECASE)
+"""A word that ends in a number, ``uint8``, which is none of the values."""
 _SO_WHAT = WordPattern(r"[,;] «so» [^\d=,;]*$", re.IGNORECASE)
 """What follows from a value in words: ``q = 16, so longer``."""
 _ASSUMED = WordPattern(r"^.{1,60}?\d.{0,30}? «assumed-behind»,? (?=.*\d)", re.IGNORECASE)
@@ -449,17 +462,29 @@ def _write_currency(text: str) -> str:
     return f"{money[2]} {money[1]}" if money else text
 
 
+_CALL_NAMED = re.compile(
+    r"^\s*(?:[^\W\d_]{1,2}\([^()]{1,20}\) ?[=≈] ?|\([^()]*\d[^()]*\): )(?=[-+−.\d(√])"
+)
+"""What a value is called: ``P(X = 4) =``, or the point that it is of: ``(1; 2): ``."""
 _MONEY = re.compile(r"([$£€]) ?([-+−]?\d[\d.,]*)")
 
 
 def drop_equal_reason(typed: str) -> str:
     """Return an answer without a reason that is an equation, which is no side of it: ``2, da ...``.
 
-    Any other reason is dropped where the answer cannot be read as it stands.
+    What it is called as a function or behind a point, ``P(X = 4) =``, is dropped, too. Any other
+    reason is dropped where the answer cannot be read as it stands.
     """
+    typed = _CALL_NAMED.sub("", typed)
     reason = _load_around_words().reason.search(typed) if "=" in typed else None
     head = typed[: reason.start()] if reason else ""
     return head if any(map(str.isdigit, head)) and "=" in typed[len(head) :] else typed
+
+
+def drop_reason(typed: str) -> str:
+    """Return a formula without the reason behind it; what was typed if nothing else is there."""
+    head = _load_around_words().reason.sub("", typed).strip()
+    return head or typed
 
 
 def drop_transposed(typed: str) -> str:

@@ -63,6 +63,12 @@ _OPERATION = WordPattern(
     r"\s(?:\|\||\|)\s*(?=[-+*/:·×÷^√(]|sqrt|ln|log|«operations»)[^|]*$", re.IGNORECASE
 )
 """What is done next, as it is noted behind a line: ``| · x``."""
+_CORRECTED = WordPattern(
+    r"^.*[=<>].*[,.…] ?(?:«choices.correcting»),? (?=[^=<>]*[=<>])", re.IGNORECASE
+)
+"""A line and the word that takes it back, before the one that is meant: ``n = 5, no, n = 25``."""
+_ALTERNATIVE = WordPattern(r"[\d)\w] (?:«choices.or»)(?![^\W\d_]) [\d(\w]", re.IGNORECASE)
+"""Two values of which one is meant."""
 _COMMENT = re.compile(r"\s(?://|#).*$")
 _WORD = re.compile(r"(?<![\\\w'])[^\W\d_]{2,}(?!\w*\()|[\u0980-\u09e5\u09f0-\u09ff]{2,}")
 _SEVERAL = WordPattern(r",\s+(?=\S)|\s+«and»\s+")
@@ -184,6 +190,8 @@ class DerivationReader:
             If it has a sign between two sides and cannot be read.
         """
         before = [*self.symbols]
+        if _SIGN.search(text) and _ALTERNATIVE.search(text):
+            raise FormulaReadError("two-readings", 1, text[:60])
         stated = _SIGN.search(text) and not _TENDS.search(text)
         if not stated and not self._is_formula(text):
             return DerivedLine(number, words=text)
@@ -367,7 +375,7 @@ def _split_lines(typed: str) -> Iterator[tuple[str, bool, str]]:
         arrows = ["", *_ARROW.findall(raw)]
         for arrow, piece in zip(arrows, pieces, strict=True):
             for place, part in enumerate(piece.split(";")):
-                text = _strip_marks(part)
+                text = _strip_marks(_CORRECTED.sub("", part))
                 if text:
                     yield text, place == 0 and bool(_BOTH_WAYS.fullmatch(arrow)), raw
 
