@@ -73,7 +73,7 @@ class CodeSpec(WordSpec, kw_only=True, frozen=True):
             raise FormulaReadError("two-readings", 1, safe_echo(given))
         given = _TAIL.sub("", given)
         note = _note(self, given)
-        if note in SET_OTHERWISE or _same_but_for_points(given, fold_blanks(self.output)):
+        if note in SET_OTHERWISE:
             return partial(HALF, safe_echo(given), note)
         return wrong(safe_echo(given), note)
 
@@ -205,14 +205,6 @@ def _values(text: str) -> str:
 
 
 _NAMES = re.compile(r"(?<![\w'\"])[^\W\d]\w* ?=(?!=) ?")
-
-
-def _same_but_for_points(given: str, wanted: str) -> bool:
-    """Return whether only the type of numbers differs, ``(45, 21)`` for ``(45.0, 21.0)``."""
-    return given != wanted and _POINT_NOUGHT.sub("", given) == _POINT_NOUGHT.sub("", wanted)
-
-
-_POINT_NOUGHT = re.compile(r"(?<=\d)\.0?(?![\d])")
 
 
 def _same_numbers(given: str, wanted: str) -> bool:

@@ -169,7 +169,8 @@ class VariantPart(PartContext):
         """Return a piece of the question as text, with a drawn phrase in its place."""
         phrase = isinstance(piece, Slot) and self.words.get(piece.name)
         if phrase:
-            return inlines_to_text(Interpolator(self.drawn, lang).sentence("words", phrase))
+            with suppress(BankError):  # text of a data file is no phrase
+                return inlines_to_text(Interpolator(self.drawn, lang).sentence("words", phrase))
         return _write_plainly(piece)
 
     def _list_measures(self, words: str) -> list[str]:
