@@ -95,6 +95,8 @@ _CONCLUSION = WordPattern(
     re.IGNORECASE | re.DOTALL,
 )
 """What is concluded at the end: ``it is linear, so true``, ``less motion blur -> B``."""
+_WORKED_OUT = re.compile(r"[^,;]*[=<>≠≤≥][^,;]*\d[^,;]*[,;] ?(?P<rest>[^\d,;=<>]+)")
+"""A verdict behind what was worked out: ``0.5^2 = 0.25 < 0.3, true``."""
 _PIECES = re.compile(r"[;\n]|,(?=\s*[\[(]?[A-Za-zক-ঞ\d][\])]?\s*[).:=-])")
 _BANGLA_WORDS = WordPattern(r"(?!(?:«and»|«choices.or») )[^;,&+]*[\u0980-\u09ff]{3,}[^;,&+]*")
 """Words of Bangla behind a letter, and no further letter."""
@@ -251,7 +253,8 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
     if explained and explained["mark"] in _list_letters(spec):
         typed = explained["mark"]
     listed = _LETTERS_LAST.fullmatch(typed) if spec.kind == "multi" else None
-    if listed and not is_denied(listed["words"]) and not says_otherwise(listed["words"]):
+    listed = listed or (_LETTERS_BECAUSE.fullmatch(typed) if spec.kind == "multi" else None)
+    if listed and not is_denied(listed["words"] or ""):
         typed = listed["letters"]
     clear = _read_clear_options(spec, typed)
     if clear:
@@ -324,8 +327,14 @@ _LETTER_BECAUSE = WordPattern(
     re.DOTALL,
 )
 """A letter with its reason, in which no other letter stands alone."""
-_LETTERS_LAST = re.compile(r"(?P<words>[^:]*[^\W\d_]{3}[^:]*): ?(?P<letters>[A-Z](?:[ ,;]+[A-Z])*)")
+_LETTERS_LAST = re.compile(
+    r"(?P<words>[^:]*(?:[^\W\d_]|[\u0980-\u09ff]){3}[^:]*): ?(?P<letters>[A-Z](?:[ ,;]+[A-Z])*)"
+)
 """Letters behind words that say why."""
+_LETTERS_BECAUSE = WordPattern(
+    r"(?P<letters>[A-Za-z](?:(?:[, ]+|,? «and» )[A-Za-z])*),? «choices.because»(?!\w)(?P<words>.*)"
+)
+"""Letters before the reason for them."""
 _LETTERS_REMARKED = WordPattern(
     r"(?P<kept>[A-Z](?:(?:[, ]+|,? «and» )[A-Z])*) \((?P<remark>[^()]{3,})\)"
 )
@@ -656,7 +665,9 @@ def _read_kept_clause(spec: ChoiceSpec, text: str) -> int:
 
 
 _CORRECTED = WordPattern(
-    r"(?P<head>.+?)[,;.… ]+(?:«choices.correcting»[,;:.… ]+)+(?P<rest>.+)", re.IGNORECASE
+    r"(?P<head>.+?)(?:[,;.… ]+(?:«choices.correcting»[,;:.… ]+)+"
+    r"|[,;.…]+ ?(?!\d)«choices.false»[,:] ?)(?P<rest>.+)",
+    re.IGNORECASE,
 )
 _SECOND_THOUGHT = WordPattern(
     r"(?P<head>.*)«choices.thought».+ «choices.but» (?P<rest>.+)", re.IGNORECASE
@@ -745,7 +756,7 @@ def read_truth(text: str) -> int:
     match = _TRUTH_FIRST.fullmatch(word)
     first = _find_truth_word(match["first"] or match["alone"]) if match else 0
     if match is None or not first:
-        concluded = _CONCLUSION.fullmatch(word)
+        concluded = _CONCLUSION.fullmatch(word) or _WORKED_OUT.fullmatch(word)
         return read_truth(concluded["rest"]) if concluded else 0
     behind = (match["rest"] or match["more"]).strip(_AROUND)
     rest = _IT_IS.sub("", behind)
@@ -897,7 +908,8 @@ def _find_rounded_values(typed: str, options: list[str]) -> set[int]:
 
     A whole number with nothing behind it is rather the place of an option.
     """
-    said = _VALUE.fullmatch(typed.rpartition("=")[2].replace("−", "-").strip())
+    plain = _MINUS.sub("-", typed.rpartition("=")[2].replace("−", "-").strip())
+    said = _VALUE.fullmatch(plain)
     if said is None or not (said["unit"] or "." in said["number"].replace(",", ".")):
         return set()
     number = said["number"].replace(",", ".")
@@ -926,6 +938,7 @@ def _is_same_unit(typed: str, listed: str) -> bool:
     return (one.factor, one.dimension) == (other.factor, other.dimension)
 
 
+_MINUS = WordPattern(r"^«minus» (?=\d)", re.IGNORECASE)
 _VALUE = re.compile(r"(?P<number>-?\d+(?:[.,]\d+)?) ?(?P<unit>[^\d\s.,;:()\[\]-]*)")
 
 

@@ -69,7 +69,8 @@ class CodeSpec(WordSpec, kw_only=True, frozen=True):
         for text in _list_barer_texts(given):
             if unify_quotes(fold_blanks(text)) in outputs:
                 return correct(safe_echo(text))
-        if _EITHER.search(given) and not _EITHER.search(self.output):
+        unclear = _EITHER.search(given) or (given.endswith("?") and given.count("[") > 1)
+        if unclear and not _EITHER.search(self.output):
             raise FormulaReadError("two-readings", 1, safe_echo(given))
         given = _TAIL.sub("", given)
         note = _note(self, given)

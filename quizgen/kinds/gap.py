@@ -307,7 +307,10 @@ def _cut_pieces(typed: str, count: int) -> list[str]:
 def _judge_gap(spec: GapSpec, gap: list[str], word: str) -> Verdict:
     """Return the verdict on one gap, by the word itself or the term that it is nearest to."""
     known = [*gap, *(term for one in spec.gaps() for term in one), *spec.among]
-    if _EITHER.search(word) and fold_word(word) not in map(fold_word, known):
+    either = _EITHER.search(word) or (
+        " / " in word and not _is_all_right(word, {*map(fold_word, gap)})
+    )
+    if either and fold_word(word) not in map(fold_word, known):
         return unreadable("words-around", safe_echo(word))
     return _judge_word(spec, gap, _drop_idle_words(_drop_around(word, known), known[len(gap) :]))
 

@@ -189,6 +189,8 @@ _CHAIN = re.compile(
 _JOINED = WordPattern(
     r"(?<=[\])\[}]) ?«and» ?(?=[\[\](])|∪|\\cup\b|(?<!\w)(?:«or»|union|[Uu])(?!\w)|∨"
 )
+_CONCLUDED = WordPattern(r"^.*[<>≤≥=].*[,;]? «so» ([\[(\]].+)$", re.IGNORECASE)
+"""What is concluded from inequalities: ``x + 1 < 3, so (-inf; 2)``."""
 _EMPTY = frozenset({"{}", "∅", "{ }", "empty", "leer"})
 EMPTY = "{}"
 """How a union of no intervals is written."""
@@ -204,6 +206,7 @@ def read_union(typed: str, decimal: str) -> tuple[list[IntervalValue], str]:
     """
     if typed.strip() in _EMPTY:
         return [], EMPTY
+    typed = _CONCLUDED.sub(r"\1", typed.strip())
     inside = write_interval(re.sub(r"^\s*(?:L|S|D)\s*=\s*", "", typed))
     read = [read_interval(piece, decimal) for piece in _JOINED.split(inside.strip())]
     read.sort(key=lambda pair: (pair[0].low is not None, pair[0].low or 0))

@@ -95,6 +95,7 @@ class MatrixSpec(EntriesSpec, kw_only=True, frozen=True):
         as_complex = any(isinstance(entry, list) for rows in known for row in rows for entry in row)
         row = _find_row_of_decimals(typed) if len(self.entries) == 1 else ""
         row = row or _part_digits(typed, len(self.entries[0]))
+        row = row or _multiply_out(typed)
         rows, read_as = _read_matrix(row or typed, options.decimal, as_complex=as_complex)
         if row and len(rows[0]) != len(self.entries[0]):
             rows, read_as = _read_matrix(typed, options.decimal, as_complex=as_complex)
@@ -140,6 +141,20 @@ def _find_row_of_decimals(typed: str) -> str:
     """Return ``(-4,65; -10,5)`` with ``&`` between its entries; empty for anything else."""
     text = drop_name(typed).strip(" ()[]")
     return text.replace(";", "&") if _ROW_OF_DECIMALS.fullmatch(text) else ""
+
+
+def _multiply_out(typed: str) -> str:
+    """Return ``1/sqrt(2) * [-1, -1; 1, -1]`` with the factor in each entry; empty without one."""
+    match = _FACTOR.fullmatch(drop_name(typed).strip())
+    if match is None:
+        return ""
+    rows = split_matrix(match["matrix"])
+    scaled = (", ".join(f"1*({match['factor']})*({one})*1" for one in row) for row in rows)
+    return f"[[{'], ['.join(scaled)}]]"
+
+
+_FACTOR = re.compile(r"(?P<factor>[^\[\]{};,=]*[\d)]) ?[*·×]? ?(?P<matrix>\[.*\])", re.DOTALL)
+"""A matrix with a factor before it."""
 
 
 def _part_digits(typed: str, width: int) -> str:

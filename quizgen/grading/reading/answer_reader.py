@@ -241,6 +241,9 @@ def list_plainer_texts(
 
 def _list_plainer_values(text: str, names: AskedNames, *, ranges: bool) -> Iterator[str]:
     """Yield several values with their labels, joints or the words around them read."""
+    joined = _JOINED_IN_LATIN.sub("; ", text)
+    if joined != text:
+        yield joined
     bare = _NOUN_BEHIND.sub(lambda m: m[0] if says_otherwise(m[2]) else m[1], text)
     if bare != text:
         yield bare
@@ -254,6 +257,9 @@ def _list_plainer_values(text: str, names: AskedNames, *, ranges: bool) -> Itera
     last = _LAST_LIST.fullmatch(text)
     corrected = _load_around_words().correcting.fullmatch(text)
     yield from ([last[1]] if last else [corrected["rest"]] if corrected else [])
+
+
+_JOINED_IN_LATIN = WordPattern(r"(?<=[\d)%]) «and-in-latin» (?=[^\W\d_]\w*'? ?[=:]|[-+−]?\d)")
 
 
 def _drop_working(text: str, names: AskedNames) -> Iterator[str]:
@@ -553,6 +559,7 @@ def _write_words_as_numbers(text: str) -> str:
     typed_array = _TYPED_NUMBER.fullmatch(text)
     text = typed_array[1] if typed_array else text
     text = write_spoken_value(_write_share_of_unit(text))
+    text = _MINUS.sub("-", text)
     signed = _SIGNED.sub("", text)
     sign = "-" if signed != text and not signed.startswith(("-", "−", "–")) else ""
     spelt = _SPOKEN_POINT.sub(".", _THOUSANDS.sub(" thousand", signed if sign else text))

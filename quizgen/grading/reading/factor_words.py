@@ -24,6 +24,8 @@ _FACTOR = WordPattern(
 _DASH_BETWEEN = re.compile("(?<=[\u0980-\u09ff])[-‐-–](?=[\u0980-\u09ff])")
 _HALF_AS = WordPattern(r"^(?:«factors.subjects» (?:«factors.verbs» )?)?«factors.half-as» \S")
 _ONE_SHARE = WordPattern(r"^«numbers.a» ")
+_ONE_OF_PARTS = WordPattern(r"(?P<count>[^\s]+) «factors.one-of-parts»")
+"""A share as Bangla says it: one part of six."""
 _PART_OF = WordPattern(r"(\d+ ?/ ?\d+) «of» «articles» [^\W\d_]+(?: [^\W\d_]+)?")
 """A share of something: ``1/24 of the size``."""
 
@@ -60,6 +62,7 @@ def read_factor(typed: str) -> str:
     text = _DASH_BETWEEN.sub(" ", " ".join(typed.split()).strip(" .!").casefold())
     share = "1/2" if _HALF_AS.match(text) else ""
     share = share or _list_shares().get(text) or _list_shares().get(_ONE_SHARE.sub("", text), "")
+    share = share or _read_one_of_parts(text)
     if share:
         return share
     part = _PART_OF.fullmatch(text)
@@ -79,6 +82,14 @@ def read_factor(typed: str) -> str:
     if not rest or _GROWING.match(rest):
         return match["number"]
     return f"1/({match['number']})" if _SHRINKING.match(rest) else ""
+
+
+def _read_one_of_parts(text: str) -> str:
+    """Return ``1/6`` for one of six parts, as Bangla says it; empty for anything else."""
+    parts = _ONE_OF_PARTS.fullmatch(text)
+    said = parts["count"].strip() if parts else ""
+    count = list_number_words().get(said) or (int(said) if said.isdecimal() else 0)
+    return f"1/{count}" if count else ""
 
 
 def is_shrinking(words: str) -> bool:
