@@ -288,13 +288,15 @@ def _read_clear_options(spec: ChoiceSpec, typed: str) -> list[int]:
     FormulaReadError
         If it contradicts itself, or leaves out what is no option.
     """
-    whole = _find_option_by_text(spec, typed)
+    whole, said = _find_option_by_text(spec, typed), [*map(str.casefold, spec.choices())]
+    truth = read_truth(typed) if {*said} == {"yes", "no"} else 0
+    if truth or (whole and {*said} == {"yes", "no"}):
+        place = whole or said.index(("yes", "no")[truth - 1]) + 1
+        return _check_letter(spec, typed, place)
     if whole:
         return [whole]
     if spec.kind == "multi":
         return _read_beside_denied(spec, typed) or _read_listed(spec, typed)
-    if {*map(str.casefold, spec.choices())} == {"yes", "no"} and (truth := read_truth(typed)):
-        return [spec.choices().index(("yes", "no")[truth - 1]) + 1]
     return _read_last_word(spec, typed)
 
 
@@ -386,7 +388,23 @@ def _find_option_by_truth(spec: ChoiceSpec, typed: str) -> list[int]:
         return []
     place = leading.index(truth) + 1
     denied = _is_turned(spec, place, rest) if read_truth(typed) else says_otherwise(rest)
-    return [place] if _find_wording(spec, typed) in {0, place} and not denied else []
+    meant = _find_wording(spec, typed) in {0, place} and not denied
+    return _check_letter(spec, typed, place) if meant else []
+
+
+def _check_letter(spec: ChoiceSpec, typed: str, place: int) -> list[int]:
+    """Return the option of *yes* or *no*, unless the letter of another one stands beside it.
+
+    Raises
+    ------
+    FormulaReadError
+        For ``A yes`` where A is *no*.
+    """
+    listed = _list_letters(spec)
+    named = {one for one in re.findall(r"(?<![^\W_])[A-Z](?![^\W_])", typed) if one in listed}
+    if named and LETTERS[place - 1] not in named:
+        raise FormulaReadError("two-readings", 1, safe_echo(typed))
+    return [place]
 
 
 def _is_turned(spec: ChoiceSpec, place: int, rest: str) -> bool:
