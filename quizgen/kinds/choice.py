@@ -364,7 +364,7 @@ def _read_listed(spec: ChoiceSpec, typed: str) -> list[int]:
     told = [_find_option_by_text(spec, piece) for piece in _WORDED.split(typed)]
     if len(told) > 1 and all(told):
         return list(dict.fromkeys(told))
-    but = _ALL_BUT.fullmatch(typed.strip(_AROUND))
+    but = _ALL_BUT.fullmatch(re.sub(r" \([^()]*\)$", "", typed).strip(_AROUND))
     left_out = every
     if but:
         out = but["out"] or but["before"]

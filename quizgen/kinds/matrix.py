@@ -95,7 +95,7 @@ class MatrixSpec(EntriesSpec, kw_only=True, frozen=True):
         as_complex = any(isinstance(entry, list) for rows in known for row in rows for entry in row)
         row = _find_row_of_decimals(typed) if len(self.entries) == 1 else ""
         row = row or _part_digits(typed, len(self.entries[0]))
-        row = row or _multiply_out(typed)
+        row = row or _multiply_out(typed) or _part_into_rows(typed, len(self.entries))
         rows, read_as = _read_matrix(row or typed, options.decimal, as_complex=as_complex)
         if row and len(rows[0]) != len(self.entries[0]):
             rows, read_as = _read_matrix(typed, options.decimal, as_complex=as_complex)
@@ -141,6 +141,20 @@ def _find_row_of_decimals(typed: str) -> str:
     """Return ``(-4,65; -10,5)`` with ``&`` between its entries; empty for anything else."""
     text = drop_name(typed).strip(" ()[]")
     return text.replace(";", "&") if _ROW_OF_DECIMALS.fullmatch(text) else ""
+
+
+def _part_into_rows(typed: str, height: int) -> str:
+    """Return ``[0,5; 0,866; -0,866; 0,5]`` in rows, if a row cannot be one value wide."""
+    values = [piece.strip() for piece in drop_name(typed).strip(" []()").split(";")]
+    width, rest = divmod(len(values), max(height, 1))
+    plain = all(_VALUE.fullmatch(value) for value in values)
+    if height < len(("first", "second")) or width <= 1 or rest or not plain:
+        return ""
+    rows = (values[at : at + width] for at in range(0, len(values), width))
+    return "; ".join(" & ".join(row) for row in rows)
+
+
+_VALUE = re.compile(r"[-+−]?\d+(?:[.,]\d+)?(?:/\d+)?")
 
 
 def _multiply_out(typed: str) -> str:

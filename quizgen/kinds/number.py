@@ -42,7 +42,7 @@ from quizgen.grading.reading.spoken_values import read_share
 from quizgen.grading.reading.units import TypedUnit, listed_unit
 from quizgen.grading.rounding import format_key
 from quizgen.grading.spec import ScalarSpec, is_large_count, is_whole_number
-from quizgen.grading.verdict import Verdict, attach_values, unreadable, wrong
+from quizgen.grading.verdict import HALF, Verdict, attach_values, partial, unreadable, wrong
 from quizgen.kinds import quantity
 from quizgen.kinds.asking import (
     accept_within_tolerance,
@@ -119,8 +119,7 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
             If it cannot be read.
         """
         if self.base != bases.TEN:
-            number = bases.read_in_base(typed, self.base)
-            return _judge_as(self, number, number.value, options)
+            return self._judge_in_base(typed, options)
         if self.unit:
             return _with_unit(self, typed, options)
         plain = read_plain_number(typed, options.decimal)
@@ -140,6 +139,23 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
         last = re.split("[=≈]", typed)[-1]
         said = self.judge(_MILLION.sub("", last), options)  # 50 million for 50 Mpx
         return said if said.credit else verdict
+
+    def _judge_in_base(self, typed: str, options: GradingOptions) -> Verdict:
+        """Return the verdict on a number in another base; half for the right one in base ten.
+
+        Raises
+        ------
+        FormulaReadError
+            If a sign is no digit of the base.
+        """
+        try:
+            number = bases.read_in_base(typed, self.base)
+        except FormulaReadError:
+            plain = typed.strip(" .")
+            if plain.isdecimal() and int(plain) == parse_exact(self.value):
+                return partial(HALF, plain, "base-asked", asked=self.base)
+            raise
+        return _judge_as(self, number, number.value, options)
 
     def _read_spoken_share(self, typed: str) -> str:
         """Return a factor or share in words, ``one fifth``, ``1 in 5``; else empty."""

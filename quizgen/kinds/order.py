@@ -34,7 +34,7 @@ from quizgen.locale.word_patterns import WordPattern, set_of_words
 from quizgen.maths.notation import FormulaReadError
 
 MOST_STEPS = 40
-_LETTERED = r"[A-Za-z](?:(?:,| «and»| «choices.or»)? [A-Za-z])*"
+_LETTERED = r"[A-Za-z](?:(?:,| «and»| «and-in-latin»| «choices.or»)? [A-Za-z])*"
 _LEFT_OUT = WordPattern(
     r"(?P<kept>[^()]+) \((?P<aside>[A-Z])(?= [^()]*\b«choices.no-step»(?!\w)) [^()]{3,}\)"
     r"|(?P<behind>.+)(?:[,;:.] ?| ?\(| (?=«choices.without» |«choices.except-steps» ))"

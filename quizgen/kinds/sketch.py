@@ -187,7 +187,9 @@ class SketchSpec(WordSpec, kw_only=True, frozen=True):
 
         Of equal points the last one counts.
         """
-        text = re.split(r"[=≈]", typed)[-1].replace("|", ";")
+        named = re.fullmatch(r"\s*x ?[=:] ?(.+?)[,;]? +y ?[=:] ?(.+)", typed)
+        text = "; ".join(named.groups()) if named else re.split(r"[=≈]", typed)[-1]
+        text = text.replace("|", ";")
         try:
             items, _ = read_list(text, len(("x", "y")), options.decimal)
             x, y = (float(read_number(item, options.decimal).main.value) for item in items)

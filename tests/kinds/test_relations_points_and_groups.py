@@ -71,7 +71,7 @@ BINARY = {"kind": "number", "value": "57", "exact": True, "base": 2}
     (HEX, "57_10", "unreadable", "digits-expected"), (HEX, "3G", "unreadable", "digits-expected"),
     (HEX, "", "unreadable", "no-answer"), (BINARY, "111 001", "correct", ""),
     (BINARY, "0b111001", "correct", ""), (BINARY, "111001₂", "correct", ""),
-    (BINARY, "57", "unreadable", "digits-expected"),
+    (BINARY, "57", "partial", "base-asked"), (BINARY, "58", "unreadable", "digits-expected"),
 ])  # fmt: skip
 def test_a_number_of_another_base_is_typed_in_its_digits(spec, typed, verdict, note):
     found = grade_answer(spec, typed)

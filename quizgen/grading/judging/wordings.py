@@ -47,6 +47,7 @@ _SIGNS = (
     (re.compile(r"(?<![^\W_])([a-z])_(?=\w)"), r"\1"),
     (re.compile(r"(?<=\d) ?\.{2,}(?=[-\d ])"), " to "),
     (re.compile(r"(?<![\d\w])\.(?=\d)"), "0."),
+    (re.compile(r"(?<=\d),(?=\d)"), "."),
     (re.compile(r"\b50 ?%"), "1/2"),
     (re.compile(r"\b25 ?%"), "1/4"),
     (re.compile(r"\b75 ?%"), "3/4"),

@@ -156,7 +156,7 @@ def _load_around_words() -> _AroundWords:
         re.compile(rf"(?<![\w\u0980-\u09ff])(?:{listed['denying']}){_END}", re.IGNORECASE),
         re.compile(
             rf".*\d.*?[,;.:]? (?:(?:{listed['correcting']})[,:;.]? )+"
-            r"(?P<rest>[-+−]?[.,]?\d[^,;(]*|[(\[][^()\[\]]*\d[^()\[\]]*[)\]])"
+            r"(?P<rest>[-+−]?[.,]?\d(?:[^,;(]|(?<=\d),(?=\d))*|[(\[][^()\[\]]*\d[^()\[\]]*[)\]])"
             r"(?: ?\([^()\d]+\))?",
             re.IGNORECASE | re.DOTALL,
         ),
@@ -259,7 +259,9 @@ def _list_plainer_values(text: str, names: AskedNames, *, ranges: bool) -> Itera
     yield from ([last[1]] if last else [corrected["rest"]] if corrected else [])
 
 
-_JOINED_IN_LATIN = WordPattern(r"(?<=[\d)%]) «and-in-latin» (?=[^\W\d_]\w*'? ?[=:]|[-+−]?\d)")
+_JOINED_IN_LATIN = WordPattern(
+    r"(?<=[\d)%]) «and-in-latin» (?=[^\W\d_]\w*'?(?: ?[=:]| «is» )|[-+−]?\d)"
+)
 
 
 def _drop_working(text: str, names: AskedNames) -> Iterator[str]:
@@ -323,7 +325,9 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
     if text != named_by:
         yield text
     parameter = _PARAMETER_BEHIND.fullmatch(text)
-    tail = _SO_WHAT.search(text)
+    tail, said = _SO_WHAT.search(text), _THAT_IS.fullmatch(text)
+    if said and not is_denied(said["words"]):
+        yield said["rest"]
     if parameter:
         yield parameter[1]
     if tail and not is_denied(tail[0]):
@@ -360,7 +364,8 @@ def _find_conclusion(text: str) -> Iterator[str]:
         _load_around_words().correcting,
     ):
         concluded = shape.fullmatch(text)
-        if concluded and not says_otherwise(concluded["rest"]):
+        around = " ".join(scan_numbers(concluded["rest"])[1]) if concluded else ""
+        if concluded and not says_otherwise(around):
             yield add_mixed_units(concluded["rest"].rpartition("=")[2].strip() or text)
     converted = find_converted(text)
     if converted:
@@ -414,6 +419,8 @@ def _is_idle_remark(words: str) -> bool:
 
 _NUMBERED_WORD = re.compile(r"(?<![^\W_])([a-z]{3,})\d+(?![\w.,])", re.IGNORECASE)
 """A word that ends in a number, ``uint8``, which is none of the values."""
+_THAT_IS = WordPattern(r"(?P<words>[^\d]+),? «that-is»,? (?P<rest>[-+−]?\d.*)", re.IGNORECASE)
+"""A value in words and, after that, as a number: ``half, i.e. 157.5 µm``."""
 _SO_WHAT = WordPattern(r"[,;] «so» [^\d=,;]*$", re.IGNORECASE)
 """What follows from a value in words: ``q = 16, so longer``."""
 _ASSUMED = WordPattern(r"^.{1,60}?\d.{0,30}? «assumed-behind»,? (?=.*\d)", re.IGNORECASE)
@@ -609,7 +616,7 @@ _REMARKED = WordPattern(
     r"([-+−]?\d[^()]*?) ?\(([^\W\d][^()]*|\d+ ?%? «of» [^()]*"
     r"|\d+(?:\.|[.,]\d+)? ?[^\W\d]{3}[^()\d]*)\)"
 )
-_REMARK = re.compile(r"(?<=\d) ?\([^\W\d][^()\d;,]*\)")
+_REMARK = re.compile(r"(?<=\d) ?\([^\W\d][^()\d;,]*\)|(?<=[^\W\d]) ?\(\d+ [^\W\d_]{3,}\)$")
 _MINUS = WordPattern(r"(?<![^\W\d_])«minus» (?=[.,]?\d)", re.IGNORECASE)
 _LAST_LIST = WordPattern(
     r"(?:.*\d.*|[^(,;]+)(?:=>?|:|→|⇒|->|,? «so») ?"

@@ -20,6 +20,10 @@ _BASE = re.compile(r"(?:_\{?|(?=[₀-₉]))(?P<base>[\d₀-₉]+)\}?$")
 """A base at the end, as an index."""
 
 
+_REMARK = re.compile(r"(?<=[0-9A-Fa-f]) ?\([^()]*[=+][^()]*\)\s*$")
+"""How a number was checked, behind it: ``1011110 (54 + 40 = 94)``."""
+
+
 def read_in_base(typed: str, base: int) -> ReadNumber:
     """Return a typed whole number; blanks, a prefix and the base as an index may stand there.
 
@@ -28,7 +32,7 @@ def read_in_base(typed: str, base: int) -> ReadNumber:
     FormulaReadError
         If a sign is no digit of the base, or another base is named.
     """
-    text = typed.rpartition("=")[2].strip(" \t\r\n$.").upper()
+    text = _REMARK.sub("", typed).rpartition("=")[2].strip(" \t\r\n$.").upper()
     named = _BASE.search(text)
     said = int(named["base"].translate(_LOWERED)) if named else base
     if named:

@@ -12,7 +12,7 @@ CONSTANTS = "A B C D a b c d K L M C1 C2 C3 C4 C_1 C_2 C_3 C_4 c1 c2 c3 c4 c_1 c
 
 def check(values, answer):
     """Judge a solution with constants of the student's own names."""
-    y = read_as_sympy(answer, f"x {CONSTANTS}")
+    y = read_as_sympy(answer, f"x i {CONSTANTS}").subs(sympy.Symbol("i"), sympy.I)
     if sympy.simplify(y.diff(X, 3) + values["c"] * y.diff(X)) != 0:
         return 0, "no-solution"
     constants = sorted(y.free_symbols - {X}, key=str)
