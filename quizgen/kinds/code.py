@@ -201,17 +201,19 @@ def _written_otherwise(given: str, wanted: str) -> str:
 
 
 def _values(text: str) -> str:
-    """Return what is printed, without brackets, commas and names of the values."""
-    return _SEPARATORS.sub(" ", _NAMES.sub("", text)).strip()
-
-
-_NAMES = re.compile(r"(?<![\w'\"])[^\W\d]\w* ?=(?!=) ?")
+    """Return what is printed, without brackets and commas."""
+    return _SEPARATORS.sub(" ", text).strip()
 
 
 def _same_numbers(given: str, wanted: str) -> bool:
     """Return whether the numbers are right and their type is not: ``4`` for ``4.0``."""
     numbers = [re.findall(r"-?\d+(?:\.\d*)?", text) for text in (given, wanted)]
     if not numbers[0] or len(numbers[0]) != len(numbers[1]) or len(given) > 400:
+        return False
+    around = [
+        _SEPARATORS.sub("", re.sub(r"-?\d+(?:\.\d*)?", " ", text)) for text in (given, wanted)
+    ]
+    if around[0] != around[1]:
         return False
     return all(float(a) == float(b) for a, b in zip(*numbers, strict=True))
 

@@ -58,7 +58,7 @@ EXAMPLE = "(a+b)^2/2"
 CONSTANT = "C"
 """The constant of integration, as it may be typed."""
 _CONSTANT_LAST = re.compile(r"[-+−–] ?(?P<name>[ckK]|[cC]_?\{?[0-9]\}?|[Cc]onst\.?)\s*$")
-_ZERO = Num(Fraction(0))
+_ZERO, _ONE = Num(Fraction(0)), Num(Fraction(1))
 
 
 class AuthoredExpression(AuthoredAnswer, kw_only=True, tag="expression", frozen=True):
@@ -175,9 +175,13 @@ class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
     ) -> Verdict:
         """Return the verdict on one formula, whose numbers may have two readings."""
         if free:
+            kept = tidy_formula(substitute(formula.tree, {CONSTANT: _ONE}))
             formula = msgspec.structs.replace(
                 formula, tree=tidy_formula(substitute(formula.tree, {CONSTANT: _ZERO}))
             )
+            verdict = _judge(self, kept, options)
+            if not verdict.credit:  # C x is no constant
+                return verdict
         verdict = _judge(self, formula.tree, options)
         if formula.other is None or formula.doubt is None:
             return verdict

@@ -24,7 +24,12 @@ from quizgen.grading.judging.spelling import (
 )
 from quizgen.grading.judging.wordings import find_wording_in, says_whole
 from quizgen.grading.options import GradingOptions
-from quizgen.grading.reading.answer_reader import AnswerForm, is_denied, says_otherwise
+from quizgen.grading.reading.answer_reader import (
+    AnswerForm,
+    casts_doubt,
+    is_denied,
+    says_otherwise,
+)
 from quizgen.grading.reading.normalise import ANSWER, PICTURES, apply_rewrite, refuse_invisible
 from quizgen.grading.reading.number_words import list_number_words
 from quizgen.grading.reading.source_map import SourceText
@@ -321,12 +326,13 @@ def _drop_around(word: str, known: list[str]) -> str:
     terms = {*map(fold_word, known)}
     if apart and {fold_word(apart["out"]), fold_word(apart["kept"])} <= terms:
         word = apart["kept"]
-    product = _PRODUCT.fullmatch(word)
-    if product and fold_word(product["term"]) in terms:
-        word = product["term"]
-    called = _CALLED.fullmatch(word)
-    if called and fold_word(called["term"]) in terms and not _holds_a_term(called["head"], known):
-        word = word if is_denied(called["head"]) else called["term"]
+    for shape in (_CORRECTED, _PRODUCT, _CALLED):
+        found = shape.fullmatch(word)
+        head = word[: found.start("term")] if found else ""
+        is_term = _holds_a_term(head, known) or fold_word(head.strip(" :=")) in terms
+        stands = shape is _CORRECTED or not (casts_doubt(head) or (shape is _CALLED and is_term))
+        if found and fold_word(found["term"]) in terms and stands:
+            word = found["term"]
     return _drop_remark(_drop_reason(_translate_word(word, known), known), known)
 
 
@@ -418,14 +424,27 @@ def _drop_reason(word: str, terms: list[str]) -> str:
     plain = _REASON.sub("", word).strip()
     nearly = _NEARLY.sub("", plain)
     before, comma, reason = word.partition(", ")
-    explained = before if comma and " " in reason and not _OFFERED.search(reason) else word
     known = {*map(fold_word, terms)}
+    other = [one for one in terms if fold_word(one) != fold_word(before)]
+    told = _OFFERED.search(reason) or casts_doubt(reason) or _TAKES_BACK.match(reason)
+    names = {fold_word(piece) for piece in re.split(r"[\s,;/()]+", reason)}
+    another = told or names & {*map(fold_word, other)} or any(one in reason for one in other)
+    explained = before if comma and " " in reason and not another else word
     tried = (plain, nearly, explained)
     return next((one for one in tried if one != word and fold_word(one) in known), word)
 
 
 _CALLED = WordPattern(r"(?P<head>[^,;:=]+?)(?: «is»:? | ?[:=] ?)(?P<term>[^,;:=]+)", re.IGNORECASE)
 """A term behind what it is of, ``the code is SN``."""
+_TAKES_BACK = WordPattern(
+    r"(?:«choices.correcting»|«choices.false»|actually|alternatively)(?!\w)", re.IGNORECASE
+)
+"""What begins words that put another term in place of one."""
+_CORRECTED = WordPattern(
+    r".+?[,;.…]+ ?(?:(?:«choices.correcting»)[,:;]? |(?:«choices.false»)[,:;] ?)(?P<term>[^,;:]+)",
+    re.IGNORECASE,
+)
+"""A term in place of one that is taken back, ``red, no: black``."""
 _PRODUCT = re.compile(r".*(?:->|→|⟶|=>|⇒) *(?P<term>[^<>→⟶⇒]+)")
 """What comes out, behind the arrow of a reaction: ``N2 + 3 H2 -> 2 NH3``."""
 _NOT_BUT = WordPattern(r"«choices.not» (?P<out>.+?),? «choices.but» (?P<kept>.+)", re.IGNORECASE)
@@ -497,7 +516,7 @@ def _is_in_company(word: str, gap: Sequence[str], others: Sequence[str]) -> bool
         known = wrong & {*rest, "".join(rest)}
         few = rest and not alone and not known and len(rest) <= MOST_COMPANY
         if few and not says_otherwise(" ".join(one for one in rest if one != "power")):
-            return True
+            return not casts_doubt(word)
     return False
 
 
@@ -536,7 +555,12 @@ def _find_misspelt_last(word: str, terms: list[str]) -> list[str]:
     """Return the terms nearest to the last of a few idle words, ``it looks blak``."""
     before, _, last = word.rpartition(" ")
     few = 0 < len(before.split()) <= MOST_COMPANY
-    if not few or len(fold_word(last)) < LEAST_MISSPELT or says_otherwise(before):
+    if (
+        not few
+        or len(fold_word(last)) < LEAST_MISSPELT
+        or says_otherwise(before)
+        or casts_doubt(before)
+    ):
         return []
     near, distance = nearest_terms(last, terms)
     return near if distance and not is_denied(before) else []

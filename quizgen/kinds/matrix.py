@@ -167,7 +167,7 @@ def _multiply_out(typed: str) -> str:
     return f"[[{'], ['.join(scaled)}]]"
 
 
-_FACTOR = re.compile(r"(?P<factor>[^\[\]{};,=]*[\d)]) ?[*·×]? ?(?P<matrix>\[.*\])", re.DOTALL)
+_FACTOR = re.compile(r"(?P<factor>-?[^\[\]{};,=+-]*[\d)]) ?[*·×]? ?(?P<matrix>\[.*\])", re.DOTALL)
 """A matrix with a factor before it."""
 
 

@@ -12,7 +12,7 @@ from flint import fmpq
 
 from quizgen.grading.judging.sampled_equality import values_agree
 from quizgen.grading.options import GradingOptions
-from quizgen.grading.reading.answer_reader import AnswerForm
+from quizgen.grading.reading.answer_reader import AnswerForm, casts_doubt
 from quizgen.grading.reading.lists import read_list
 from quizgen.grading.verdict import Verdict, correct, verdict_by_share, wrong
 from quizgen.kinds.asking import hint, make_spec, misconception_specs
@@ -102,7 +102,7 @@ class ColumnSpec(EntriesSpec, kw_only=True, frozen=True):
 
     def _read(self, typed: str, options: GradingOptions) -> list[TypedEntry]:
         """Return the typed components; errors as ``judge``."""
-        typed = _HEADING.sub("", typed)
+        typed = _HEADING.sub(lambda m: m[0] if casts_doubt(m[0]) else "", typed)
         if self.up_to == "scale":
             typed = _PARAMETER.sub("", _NOT_ZERO.sub("", typed))
         plain = _write_by_axes(typed).replace("\\\\", ";").replace("&", ";")

@@ -242,7 +242,14 @@ def _agree_when_rounded(relation: Relation, a: Value, b: Value) -> bool:
         return True
     if units and size < min(units, key=float) * LEAST_DIGITS:
         return False
-    if any(far <= unit for unit in units) or (relation.near and not units):
+    cut = [
+        unit
+        for unit, value, other in zip(
+            map(_last_place, (relation.left, relation.right)), (a, b), (b, a), strict=True
+        )
+        if unit and abs(value) <= abs(other)
+    ]
+    if any(far <= unit for unit in cut) or (relation.near and not units):
         return bool(far <= size * ROUNDED)
     return _has_rounded_number(relation) and bool(far <= size * RECKONED)
 

@@ -51,7 +51,7 @@ options, or text in which every character counts."""
 _INVISIBLE = re.compile("[\u00ad\u061c\u200b-\u200f\u202a-\u202e\u2060-\u2069\ufe0e\ufe0f\ufeff]")
 _EMOJI = re.compile("[\u2600-\u2712\u2719-\u2753\u2757-\u27bf\u2b00-\u2bff\U0001f000-\U0001faff]")
 _MARKDOWN = re.compile(
-    r"(?<![\w*])(\*\*|__|~~)(?=\S)(.+?)(?<=\S)\1(?![\w*])|(?<![\w*)])\*(?=\S)([^*]+)(?<=\S)\*(?!\S)"
+    r"(?<![\w*])(\*\*|__)(?=\S)(.+?)(?<=\S)\1(?![\w*])|(?<![\w*)])\*(?=\S)([^*]+)(?<=\S)\*(?!\S)"
 )
 _STRUCK = re.compile(r"~~(?=\S)[^~]+~~ *")
 """What its writer has struck out in Markdown."""
@@ -116,6 +116,8 @@ class _AroundWords(NamedTuple):
     altering: frozenset[str]
     """Words that deny a number, offer another one or change it."""
     denying: re.Pattern[str]
+    doubting: re.Pattern[str]
+    """What takes back or leaves open what stands beside it."""
     correcting: re.Pattern[str]
     """A value that its writer has put in place of another, ``0.566 no, 0.569``."""
     becoming: re.Pattern[str]
@@ -154,6 +156,7 @@ def _load_around_words() -> _AroundWords:
         frozenset(found["leading-on"]),
         frozenset(found["altering"]),
         re.compile(rf"(?<![\w\u0980-\u09ff])(?:{listed['denying']}){_END}", re.IGNORECASE),
+        re.compile(rf"(?<![\w\u0980-\u09ff])(?:{listed['doubting']}){_END}", re.IGNORECASE),
         re.compile(
             rf".*\d.*?[,;.:]? (?:(?:{listed['correcting']})[,:;.]? )+"
             r"(?P<rest>[-+−]?[.,]?\d(?:[^,;(]|(?<=\d),(?=\d))*|[(\[][^()\[\]]*\d[^()\[\]]*[)\]])"
@@ -269,7 +272,8 @@ def _drop_working(text: str, names: AskedNames) -> Iterator[str]:
     pieces = [piece.strip() for piece in _PARTED.split(text) if piece.strip()]
     asked = [piece for piece in pieces if find_name(piece.partition("=")[0].strip(), names)]
     others = [piece for piece in pieces if piece not in asked]
-    if len(asked) == len(names) and others and all("=" in piece for piece in pieces):
+    named = all("=" in piece for piece in pieces)
+    if len(asked) == len(names) and others and named and not casts_doubt(text):
         yield "; ".join(asked)
 
 
@@ -324,20 +328,7 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
     text = _IN_UNIT.sub(r" \1", text)
     if text != named_by:
         yield text
-    parameter = _PARAMETER_BEHIND.fullmatch(text)
-    tail, said = _SO_WHAT.search(text), _THAT_IS.fullmatch(text)
-    if said and not is_denied(said["words"]):
-        yield said["rest"]
-    if parameter:
-        yield parameter[1]
-    if tail and not is_denied(tail[0]):
-        yield text[: tail.start()]
-    same = _SAME_VALUE.fullmatch(text)
-    if same:
-        yield f"{same[1]} = {same[2]}"
-    remarked = _REMARKED.fullmatch(text)
-    if remarked and _is_idle_remark(remarked[2]) and not _is_shrunk(*remarked.groups()):
-        yield remarked[1]
+    yield from _list_remarked(text)
     clock = _CLOCK.fullmatch(text)
     if clock:
         yield add_mixed_units(f"{int(clock[1])} h {int(clock[2] or clock[3])} min")
@@ -345,12 +336,32 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
     words = [*words[:-1], _DISTANCE.sub(" ", words[-1])]
     if len(found) != 1 or found[0] == text or not _can_be_dropped(words):
         return
+    if casts_doubt(" ".join(words)):
+        return
     behind = _WORD.search(words[1])
     named = behind is not None and behind[0].lower() not in around.leading_on
     remarked_on = words[1].startswith((",", ";")) and form == "number"
     named = named and not remarked_on
     if not found[0][-1].isdigit() or not (named or (behind and form == "quantity")):
         yield found[0]
+
+
+def _list_remarked(text: str) -> Iterator[str]:
+    """Yield the value without a remark that is before, behind or in brackets behind it."""
+    parameter = _PARAMETER_BEHIND.fullmatch(text)
+    tail, said = _SO_WHAT.search(text), _THAT_IS.fullmatch(text)
+    if said and not casts_doubt(said["words"]):
+        yield said["rest"]
+    if parameter:
+        yield parameter[1]
+    if tail and not (casts_doubt(tail[0]) or says_otherwise(tail[0])):
+        yield text[: tail.start()]
+    same = _SAME_VALUE.fullmatch(text)
+    if same:
+        yield f"{same[1]} = {same[2]}"
+    remarked = _REMARKED.fullmatch(text)
+    if remarked and _is_idle_remark(remarked[2]) and not _is_shrunk(*remarked.groups()):
+        yield remarked[1]
 
 
 def _find_conclusion(text: str) -> Iterator[str]:
@@ -364,8 +375,13 @@ def _find_conclusion(text: str) -> Iterator[str]:
         _load_around_words().correcting,
     ):
         concluded = shape.fullmatch(text)
-        around = " ".join(scan_numbers(concluded["rest"])[1]) if concluded else ""
-        if concluded and not says_otherwise(around):
+        if concluded is None:
+            continue
+        words = concluded.groupdict().get("words") or ""
+        around = " ".join([*scan_numbers(concluded["rest"])[1], words])
+        if shape is _STEPS_NAMED:
+            yield concluded["rest"]
+        elif not (says_otherwise(around) or casts_doubt(words)):
             yield add_mixed_units(concluded["rest"].rpartition("=")[2].strip() or text)
     converted = find_converted(text)
     if converted:
@@ -390,7 +406,7 @@ _DERIVED = re.compile(r"(?=.*[=√+*/]).*\d.*(?:->|→|=>|⇒) *(?P<rest>[^<>→
 """A value behind the arrow at the end of a derivation."""
 _ARROWED = re.compile(
     r"[-+\d][-+\d\s.,]*(?:(?:->|→|=>|⇒)[-+\d\s.,]+)*(?:->|→|=>|⇒) *"
-    r"(?:[^\W\d_]{2,} ){0,4}(?P<rest>[-+]?\d[^<>→⇒]*)"
+    r"(?P<words>(?:[^\W\d_]{2,} ){0,4})(?P<rest>[-+]?\d[^<>→⇒]*)"
 )
 """A value behind an arrow from numbers, ``320 -> 64 -> 32``."""
 
@@ -404,7 +420,7 @@ def find_conclusion(typed: str) -> str:
 
 _PARAMETER_BEHIND = re.compile(
     r"([-+−]?\d[\d.,]*(?: ?[^\W\d]\S*)?)"
-    r" ?\([^\W\d_]{1,3}(?:_?\w)? ?[=≈] ?\d[\d.,]*(?: ?[^\W\d_]{1,4})?\)"
+    r" ?\((?:[^\W\d_]{2,3}|[A-Z])(?:_?\w)? ?[=≈] ?\d[\d.,]*(?: ?[^\W\d_]{1,4})?\)"
 )
 """A value with what it depends on, ``2.45 (df = 6)``, ``1.6 (H = 24 m)``."""
 
@@ -412,6 +428,8 @@ _PARAMETER_BEHIND = re.compile(
 def _is_idle_remark(words: str) -> bool:
     """Return whether words in brackets behind a number neither change it nor offer another."""
     found = [word[0].lower() for word in _WORD.finditer(words)]
+    if _SAYS_NO.fullmatch(words) or _load_around_words().doubting.search(words):
+        return False
     return len(found) <= _MOST_WORDS and not {*found} & (
         _load_around_words().altering - set_of_words("harmless-in-brackets")
     )
@@ -425,6 +443,10 @@ _SO_WHAT = WordPattern(r"[,;] «so» [^\d=,;]*$", re.IGNORECASE)
 """What follows from a value in words: ``q = 16, so longer``."""
 _ASSUMED = WordPattern(r"^.{1,60}?\d.{0,30}? «assumed-behind»,? (?=.*\d)", re.IGNORECASE)
 """What a value was worked out with, in languages that say so behind it: ``1.7 m ধরে 425 px``."""
+_SAYS_NO = WordPattern(
+    r"(?:«choices.false»|«choices.not»)(?:[,;:. ]+[-+]?\d[\d.,]*)?", re.IGNORECASE
+)
+"""A remark that denies what stands before it, ``(no)``, ``(no, 296)``."""
 _SAME_VALUE = WordPattern(
     r"([^()]*\d(?: ?[^\W\d]{1,12}(?:/[^\W\d]{1,12})?)?) \((?:«that-is» |[=≈] ?)?([^()]*\d[^()]*)\)"
 )
@@ -488,7 +510,7 @@ def drop_equal_reason(typed: str) -> str:
     What it is called as a function or behind a point, ``P(X = 4) =``, is dropped, too. Any other
     reason is dropped where the answer cannot be read as it stands.
     """
-    typed = _CALL_NAMED.sub("", typed)
+    typed = _CALL_NAMED.sub(lambda m: m[0] if casts_doubt(m[0]) else "", typed)
     reason = _load_around_words().reason.search(typed) if "=" in typed else None
     head = typed[: reason.start()] if reason else ""
     return head if any(map(str.isdigit, head)) and "=" in typed[len(head) :] else typed
@@ -830,6 +852,16 @@ def is_denied(text: str) -> bool:
     """Whether a word says that something is not the answer."""
     composed = unicodedata.normalize("NFC", text)
     return _load_around_words().denying.search(composed) is not None
+
+
+def casts_doubt(text: str) -> bool:
+    """Whether words that are left out of an answer deny it, take it back or leave it open.
+
+    What a rule drops must never be ``wrong``, ``or``, ``maybe`` or a question.
+    """
+    composed = unicodedata.normalize("NFC", text)
+    doubting = _load_around_words().doubting.search(composed) is not None
+    return doubting or is_denied(composed) or "?" in composed
 
 
 def is_range_of_shares(typed: str) -> bool:

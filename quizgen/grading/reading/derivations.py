@@ -69,6 +69,11 @@ _CORRECTED = WordPattern(
 """A line and the word that takes it back, before the one that is meant: ``n = 5, no, n = 25``."""
 _ALTERNATIVE = WordPattern(r"[\d)\w] (?:«choices.or»)(?![^\W\d_]) [\d(\w]", re.IGNORECASE)
 """Two values of which one is meant."""
+_TAKEN_BACK = WordPattern(
+    r"^(?:«choices.not»|never|nie) |\d\S* (?:(?:is|ist) )?(?:«choices.wrong»|«choices.isnt»)\W*$",
+    re.IGNORECASE,
+)
+"""An equation that is denied as a whole."""
 _COMMENT = re.compile(r"\s(?://|#).*$")
 _WORD = re.compile(r"(?<![\\\w'])[^\W\d_]{2,}(?!\w*\()|[\u0980-\u09e5\u09f0-\u09ff]{2,}")
 _SEVERAL = WordPattern(r",\s+(?=\S)|\s+«and»\s+")
@@ -190,7 +195,7 @@ class DerivationReader:
             If it has a sign between two sides and cannot be read.
         """
         before = [*self.symbols]
-        if _SIGN.search(text) and _ALTERNATIVE.search(text):
+        if _SIGN.search(text) and (_ALTERNATIVE.search(text) or _TAKEN_BACK.search(text)):
             raise FormulaReadError("two-readings", 1, text[:60])
         stated = _SIGN.search(text) and not _TENDS.search(text)
         if not stated and not self._is_formula(text):
@@ -199,6 +204,8 @@ class DerivationReader:
             return self._read_with_new_letter(number, text)
         except FormulaReadError as error:
             self.symbols = before
+            if error.code == "unit-other":
+                raise
             words = [*self._iter_words(text)]
             inner = self._cut_words(text, words)
             if inner and inner != text:

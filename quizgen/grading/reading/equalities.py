@@ -333,7 +333,10 @@ def _is_equal_side(first: EqualitySide, second: EqualitySide) -> bool:
         )
         if abs(x - y) <= _CLOSE * abs(y):
             return True
-    return bool(abs(a - b) <= max(near, close, key=float) or abs(a - b) <= _CLOSE * abs(b))
+    unit = max(near, close, key=float)
+    if abs(b) < _SHARP * unit:  # 0.4 is not 0.3, though one unit of the last place away
+        unit = unit / 2
+    return bool(abs(a - b) <= unit or abs(a - b) <= _CLOSE * abs(b))
 
 
 def _convert_to_base_units(side: EqualitySide) -> tuple[Value, Value]:
