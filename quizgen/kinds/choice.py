@@ -6,6 +6,7 @@ import re
 import unicodedata
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
+from functools import partial
 from typing import Any, ClassVar
 
 import msgspec
@@ -22,7 +23,12 @@ from quizgen.grading.judging.wordings import (
     share_words,
 )
 from quizgen.grading.options import GradingOptions
-from quizgen.grading.reading.answer_reader import AnswerForm, is_denied, says_otherwise
+from quizgen.grading.reading.answer_reader import (
+    AnswerForm,
+    casts_doubt,
+    is_denied,
+    says_otherwise,
+)
 from quizgen.grading.reading.normalise import (
     BANGLA_DIGITS,
     BANGLA_LETTERS,
@@ -31,7 +37,8 @@ from quizgen.grading.reading.normalise import (
 )
 from quizgen.grading.reading.units import read_unit
 from quizgen.grading.spec import WordSpec
-from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
+from quizgen.grading.verdict import HALF, Verdict, correct, wrong
+from quizgen.grading.verdict import partial as partly
 from quizgen.kinds.asking import LETTERS, assign_letters, hint, make_spec
 from quizgen.kinds.contract import (
     MOST_OPTIONS,
@@ -45,7 +52,7 @@ from quizgen.kinds.contract import (
     PartContext,
 )
 from quizgen.kinds.work import Work
-from quizgen.locale import fallback_language, translate
+from quizgen.locale import cache_words, fallback_language, translate
 from quizgen.locale.word_patterns import WordPattern, set_of_words
 from quizgen.maths.notation import FormulaReadError
 
@@ -80,7 +87,8 @@ _TRUTH_FIRST = WordPattern(
 """*Yes* or *false* with a reason behind it; ``0.5`` is neither."""
 _TRUTH_CORRECTED = WordPattern(
     r"(?P<head>[^\s,;:.(…]+)"
-    r"(?:[,;:.… ]+(?:«choices.correcting»)[,;:.… ]+|[,;:.…]+ ?(?!\d)«choices.false»[,;:.…] ?)"
+    r"(?:[,;:.… ]+(?:«choices.correcting»)[,;:.… ]+"
+    r"|[,;:.…]+ ?(?!\d)«choices.false»[,;:.…] ?)"
     r"(?P<rest>.+)"
 )
 """A verdict taken back for another one: ``false... no, true``."""
@@ -254,8 +262,9 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
         typed = explained["mark"]
     listed = _LETTERS_LAST.fullmatch(typed) if spec.kind == "multi" else None
     listed = listed or (_LETTERS_BECAUSE.fullmatch(typed) if spec.kind == "multi" else None)
-    if listed and not is_denied(listed["words"] or ""):
+    if listed and not casts_doubt(listed["words"] or ""):
         typed = listed["letters"]
+    _refuse_taken_back(spec, typed)
     clear = _read_clear_options(spec, typed)
     if clear:
         return clear
@@ -280,6 +289,45 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
     return (spec.kind == "choice" and len(read) > 1 and _find_worded_options(spec, typed)) or read
 
 
+def _refuse_taken_back(spec: ChoiceSpec, typed: str) -> None:
+    """Refuse a letter that is taken back or contradicted, and two values with *or* between them.
+
+    Raises
+    ------
+    FormulaReadError
+        ``two-readings`` for ``no A``, ``A, not sure`` and ``A because B is right``.
+    """
+    plain = [option.replace("\xa0", " ") for option in spec.choices()]
+    offered = all(map(_VALUE.fullmatch, plain)) and _ALTERNATIVE.search(typed)
+    unclear = offered or _is_letter_denied(spec, typed) or _names_other_in_reason(spec, typed)
+    if spec.kind == "choice" and unclear:
+        raise FormulaReadError("two-readings", 1, safe_echo(typed))
+
+
+def _is_letter_denied(spec: ChoiceSpec, typed: str) -> bool:
+    """Return whether all words beside a single letter deny it or leave it open, ``A, not sure``."""
+    alone = _LONE_CAPITAL.findall(typed)
+    rest = _LONE_CAPITAL.sub(" ", typed).strip(_AROUND + ",;:?")
+    known = {word.casefold() for texts in (spec.choices(), *spec.said) for word in texts}
+    is_letter = len(alone) == 1 and alone[0] in _list_letters(spec)
+    return is_letter and bool(rest) and rest.casefold() not in known and _takes_back(rest)
+
+
+def _names_other_in_reason(spec: ChoiceSpec, typed: str) -> bool:
+    """Return whether the reason for a letter names another one, and not as wrong."""
+    because = _LETTER_AND_BECAUSE.fullmatch(typed)
+    if because is None or _OTHERS_ARE_WRONG.fullmatch(because["why"].strip()):
+        return False
+    named = {*_LONE_CAPITAL.findall(because["why"])} & {*_list_letters(spec)}
+    return bool(named - {because["mark"]})
+
+
+_LONE_CAPITAL = re.compile(r"(?<![^\W_])[A-Z](?![^\W_])")
+_LETTER_AND_BECAUSE = WordPattern(
+    r"(?P<mark>[A-Z])[,.:;)]? (?:«choices.because»)(?!\w)(?P<why>.*)", re.DOTALL
+)
+
+
 def _read_clear_options(spec: ChoiceSpec, typed: str) -> list[int]:
     """Return the options of an answer that is one, lists some in full, or says which are not.
 
@@ -290,6 +338,9 @@ def _read_clear_options(spec: ChoiceSpec, typed: str) -> list[int]:
     """
     whole, said = _find_option_by_text(spec, typed), [*map(str.casefold, spec.choices())]
     truth = read_truth(typed) if {*said} == {"yes", "no"} else 0
+    spoken = [_find_truth_word(one) for one in re.findall(r"[^\W\d_]{2,}", typed)]
+    if {*said} == {"yes", "no"} and not (truth or whole) and any(spoken):
+        raise FormulaReadError("two-readings", 1, safe_echo(typed))
     if truth or (whole and {*said} == {"yes", "no"}):
         place = whole or said.index(("yes", "no")[truth - 1]) + 1
         return _check_letter(spec, typed, place)
@@ -307,7 +358,8 @@ def _read_beside_denied(spec: ChoiceSpec, typed: str) -> list[int]:
     """
     match = _BESIDE_DENIED.fullmatch(typed.strip(_AROUND)) or _LETTERS_REMARKED.fullmatch(typed)
     match = match or _LETTERS_AND_OUT.fullmatch(typed)
-    if match is None or says_otherwise(match.groupdict().get("remark") or ""):
+    remark = match.groupdict().get("remark") or "" if match else ""
+    if match is None or says_otherwise(remark) or casts_doubt(remark):
         return []
     try:
         kept = _read_positions(spec, match["kept"])
@@ -425,7 +477,9 @@ def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:
     head, _, remark = text.partition(",")
     places = _find_places(spec, head.strip())
     told = _find_wording(spec, remark or text) if places else 0
-    if places and told in {0, *places} and not (says_otherwise(text) or is_denied(text)):
+    counted = any(map(list_ordinals().get, re.findall(r"\w+", remark.casefold())))
+    taken_back = says_otherwise(text) or casts_doubt(text) or counted
+    if places and told in {0, *places} and not taken_back:
         return places
     if len(text) == 1 and (initial := _find_initial(spec, text)):
         return initial
@@ -485,7 +539,12 @@ def _find_reasoned_letter(spec: ChoiceSpec, typed: str) -> list[int]:
     if not 1 <= position <= len(spec.choices()):
         return []
     listed = _list_letters(spec)
-    named = {letter for letter in re.findall(r"(?<!\w)[A-Z](?!\w)", reason) if letter in listed}
+    shape = (
+        r"(?<!\w)[A-Z](?!\w)"
+        if ahead is None or ahead["mark"].isupper()
+        else r"(?<!\w)[A-Zb-z](?!\w)"
+    )
+    named = {one for one in map(str.upper, re.findall(shape, reason)) if one in listed}
     if named - {mark} and not (_OTHERS_ARE_WRONG.fullmatch(reason.strip()) and mark not in named):
         return []
     return [position] if _find_wording(spec, reason) in {0, position} else []
@@ -495,7 +554,8 @@ def _read_places(text: str, count: int) -> list[int]:
     """Return the places of ``the fourth``, ``the last one``, ``the first two``; none of others."""
     idle = set_of_words("articles") | set_of_words("choices.place-nouns")
     words = [word for word in text.casefold().split() if word not in idle]
-    if len(words) == len(("second", "camera")) and words[1].isalpha() and read_count(words[1]) < 0:
+    noun = words[1] if len(words) == len(("second", "camera")) else ""
+    if len(noun) > 1 and noun.isalpha() and read_count(noun) < 0:
         words = [one for one in words[:1] if list_ordinals().get(one)] or words
     counted = [list_ordinals().get(word, 0) for word in words]
     if len(words) == 1 and words[0] in set_of_words("choices.last"):
@@ -512,7 +572,7 @@ def _read_places(text: str, count: int) -> list[int]:
 
 _LETTER_AHEAD = WordPattern(
     r"[\[(]?(?P<mark>[A-Z]|[a-z](?=[\]),:;]| \())[\])]?(?: ?[,:;.–-] ?| (?=\())"
-    r"\(?(?!«choices.doubts»(?!\w))(?P<reason>\S[^()]{6,}?)\)?",
+    r"\(?(?!«choices.doubts»(?!\w))(?P<reason>[^\s(][^()]{6,}?)\)?",
     re.DOTALL,
 )
 """A letter and words behind it that give the reason."""
@@ -750,6 +810,7 @@ def _read_truth_value(spec: ChoiceSpec, typed: str) -> int:
     raise FormulaReadError("true-or-false", 1, safe_echo(typed))
 
 
+@partial(cache_words, most=1024)
 def read_truth(text: str) -> int:
     """Return 1 for an answer that says true or yes, 2 for false or no; 0 if it says neither.
 
@@ -760,11 +821,9 @@ def read_truth(text: str) -> int:
     found = _find_truth_word(word) or _find_denied_truth(word)
     if found:
         return found
-    corrected = _TRUTH_CORRECTED.fullmatch(word)
-    if corrected and _find_truth_word(corrected["head"]) and not _OPEN.search(corrected["rest"]):
-        last = read_truth(corrected["rest"])
-        if last:
-            return last
+    last = _read_corrected_truth(word)
+    if last:
+        return last
     if _ALTERNATIVE.search(_TRUTH_FIRST.sub(r"\g<first>", word)):
         return 0
     denied = _DENIED_FIRST.fullmatch(word)
@@ -781,8 +840,32 @@ def read_truth(text: str) -> int:
     said = read_truth(rest) if rest else 0
     denies = _SHORT_DENIAL.fullmatch(behind)
     said = said or (2 if denies and denies["no"] else 1 if denies else 0)
-    clear = said == first or not (said or _names_other_truth(rest, first))
-    return first if clear else 0
+    taken_back = _names_other_truth(rest, first) or _takes_back(behind)
+    return first if said == first or not (said or taken_back) else 0
+
+
+def _read_corrected_truth(word: str) -> int:
+    """Return what is said in place of a verdict that is taken back; 0 if none is."""
+    corrected = _TRUTH_CORRECTED.fullmatch(word)
+    if corrected is None or _OPEN.search(corrected["rest"]):
+        return 0
+    first, second, *_ = [*re.split(r"[,;:.… ]+", word), ""]
+    repeated = first == second
+    return (
+        read_truth(corrected["rest"]) if _find_truth_word(corrected["head"]) and not repeated else 0
+    )
+
+
+def _takes_back(rest: str) -> bool:
+    """Return whether words behind a verdict are no reason, but deny it or leave it open."""
+    words = set(re.findall(r"(?:[^\W\d_]|[\u0980-\u09ff]|['’])+", rest.casefold()))
+    idle = set_of_words("choices.back-fillers") | set_of_words("choices.or")
+    idle = idle | set_of_words("choices.because")
+    denying = set_of_words("choices.not") | set_of_words("choices.not-behind")
+    said = [word for word in words - idle if not casts_doubt(word)]
+    doubted = any(map(casts_doubt, words - idle))
+    told = all(_find_truth_word(word) or word in denying for word in said)
+    return told and (bool(said) or doubted)
 
 
 def _names_other_truth(rest: str, first: int) -> bool:
@@ -866,7 +949,7 @@ def _is_called_otherwise(match: re.Match[str]) -> bool:
     """Return whether one word stands before a letter in brackets: ``Moiré (F)``."""
     words = match["words"]
     behind = match.re is _BEHIND and match["mark"].isupper()
-    return behind and not (is_denied(words) or _ALTERNATIVE.search(words) or " " in words)
+    return behind and len(words) >= _SHORTEST and not (casts_doubt(words) or " " in words)
 
 
 def _is_own_reason(spec: ChoiceSpec, position: int, mark: str, words: str) -> bool:
@@ -911,7 +994,8 @@ def _find_option_by_text(spec: ChoiceSpec, typed: str) -> int:
         for place, option in enumerate(texts, 1)
         if fold_word(option) == folded
     } or _find_rounded_values(typed, spec.choices())
-    if not hits and "=" in typed:
+    before = typed.partition("=")[0].strip()
+    if not hits and before != typed.strip() and not _find_rounded_values(before, spec.choices()):
         last = fold_word(typed.rpartition("=")[2])
         hits = {
             place
@@ -1028,7 +1112,7 @@ def _judge_several_options(spec: ChoiceSpec, chosen: list[int]) -> Verdict:
     extras = _list_marks(sorted(set(chosen) - set(spec.correct)))
     fields = {"right": right, "of": len(spec.correct), "because": extras}
     if spec.negative and 0 < credit < 1:
-        return partial(credit, read_as, note, **fields)
+        return partly(credit, read_as, note, **fields)
     return wrong(read_as, note, **fields)
 
 

@@ -331,7 +331,8 @@ def _drop_around(word: str, known: list[str]) -> str:
         head = word[: found.start("term")] if found else ""
         is_term = _holds_a_term(head, known) or fold_word(head.strip(" :=")) in terms
         stands = shape is _CORRECTED or not (casts_doubt(head) or (shape is _CALLED and is_term))
-        if found and fold_word(found["term"]) in terms and stands:
+        term = fold_word(_translate_word(found["term"], known)) if found else ""
+        if found and term in terms and stands:
             word = found["term"]
     return _drop_remark(_drop_reason(_translate_word(word, known), known), known)
 
@@ -577,6 +578,7 @@ def _says_otherwise(spec: GapSpec, word: str, gap: list[str], others: list[str])
     """
     terms = {fold_word(term) for term in spec.terms}
     spoken = {fold_word(piece) for piece in re.split(r"[\s,;/()]+", word)}
+    terms |= {fold_word(term) for term in others if " " not in term}
     if spoken & terms or not others or any(map(str.isdigit, word)):
         return False
     sides = [["; ".join(gap), "; ".join(others)]]

@@ -27,7 +27,7 @@ from quizgen.grading.judging.spelling import (
     typo_distance,
 )
 from quizgen.grading.judging.statements import list_clause_words
-from quizgen.grading.reading.answer_reader import says_otherwise
+from quizgen.grading.reading.answer_reader import casts_doubt, is_doubted, says_otherwise
 from quizgen.grading.reading.number_words import list_number_words
 from quizgen.locale import cache_words
 from quizgen.locale.word_patterns import (
@@ -76,6 +76,8 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
     all_named : bool
         Whether each of them is named in the answer, so that a word of it is enough.
     """
+    if is_doubted(typed) and not any(map(is_doubted, wordings)):
+        return 0
     spoken = _split_words(typed)
     listed = [frozenset(_split_words(wording)) for wording in wordings]
     called = _find_by_name(typed, wordings)
@@ -112,6 +114,7 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
         return 0
     denied = (
         says_otherwise(" ".join(more))
+        or casts_doubt(" ".join(more))
         or _denies(wanted) != _denies(meant)
         or are_opposed(meant, wanted)
     )
@@ -139,6 +142,8 @@ def _find_meant(typed: str, languages: tuple[tuple[str, ...], ...], all_named: b
     verbatim = {find_verbatim(typed, wordings) for wordings in languages} - {0}
     if len(verbatim) == 1:
         return verbatim.pop()
+    if is_doubted(typed) and not any(is_doubted(one) for texts in languages for one in texts):
+        return 0
     spoken = {*_split_words(typed)}
     if any(_is_shared(spoken, wordings) for wordings in languages):
         return 0
@@ -259,6 +264,8 @@ def _find_nearest(meant: frozenset[str], listed: list[frozenset[str]]) -> list[i
 
 def _find_by_name(typed: str, wordings: Sequence[str]) -> int:
     """Return the place of the only wording that is called so, by all of it or by its parts."""
+    if casts_doubt(typed) and not any(map(casts_doubt, wordings)):
+        return 0
     said = frozenset(_split_words(typed))
     names = _list_names_of(typed) - {said}
     known = frozenset().union(*map(_split_words, wordings))

@@ -381,7 +381,11 @@ def _find_conclusion(text: str) -> Iterator[str]:
         around = " ".join([*scan_numbers(concluded["rest"])[1], words])
         if shape is _STEPS_NAMED:
             yield concluded["rest"]
-        elif not (says_otherwise(around) or casts_doubt(words)):
+        elif not (
+            says_otherwise(around)
+            or casts_doubt(words)
+            or set_of_words("choices.no-option") & {*words.split()}
+        ):
             yield add_mixed_units(concluded["rest"].rpartition("=")[2].strip() or text)
     converted = find_converted(text)
     if converted:
@@ -851,7 +855,8 @@ def says_otherwise(text: str) -> bool:
 def is_denied(text: str) -> bool:
     """Whether a word says that something is not the answer."""
     composed = unicodedata.normalize("NFC", text)
-    return _load_around_words().denying.search(composed) is not None
+    struck = _STRUCK.fullmatch(composed.strip()) is not None
+    return struck or _load_around_words().denying.search(composed) is not None
 
 
 def casts_doubt(text: str) -> bool:
@@ -859,9 +864,13 @@ def casts_doubt(text: str) -> bool:
 
     What a rule drops must never be ``wrong``, ``or``, ``maybe`` or a question.
     """
+    return is_doubted(text) or is_denied(text)
+
+
+def is_doubted(text: str) -> bool:
+    """Whether words take back what stands beside them, or leave it open: wrong, or, ``?``."""
     composed = unicodedata.normalize("NFC", text)
-    doubting = _load_around_words().doubting.search(composed) is not None
-    return doubting or is_denied(composed) or "?" in composed
+    return "?" in composed or _load_around_words().doubting.search(composed) is not None
 
 
 def is_range_of_shares(typed: str) -> bool:
