@@ -214,14 +214,19 @@ def nearest_terms(typed: str, terms: Iterable[str]) -> tuple[list[str], int]:
     least = 3
     for term in terms:
         target = fold_word(term)
-        if abs(len(target) - len(folded)) > MOST:
-            continue
+        if abs(len(target) - len(folded)) > MOST or _list_digits(target) != _list_digits(folded):
+            continue  # read.csv2 is no slip of read.csv
         distance = typo_distance(folded, target, MOST)
         exchanged = distance == 1 and len(target) == SHORT and sorted(folded) == sorted(target)
         if distance <= least and (exchanged or distance <= allowed_typos(target)):
             best = [term] if distance < least else [*best, term]
             least = distance
     return best, least
+
+
+def _list_digits(word: str) -> str:
+    """Return the digits of a word, in which there are no slips of spelling."""
+    return "".join(filter(str.isdigit, word))
 
 
 _PREFIXES = WordPattern(r"^«spelling.prefixes»(?=.{3})")
