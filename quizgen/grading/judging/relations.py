@@ -233,25 +233,25 @@ def _compare(relation: Relation, a: Value, b: Value, *, rounded: bool) -> bool |
 def _agree_when_rounded(relation: Relation, a: Value, b: Value) -> bool:
     """Return whether two values agree as far as the decimals of a relation say.
 
-    A side that is one decimal may be off by half its last place, or up to a fiftieth by all of it;
-    sides that were reckoned from rounded decimals by two thousandths.
+    A side that is one decimal may be rounded to its last place, or cut off there by a fiftieth of
+    the value at most; sides that were reckoned from rounded decimals are within two thousandths.
     """
     far, size = abs(a - b), abs(b)
     units = [unit for unit in map(_last_place, (relation.left, relation.right)) if unit]
-    if any(2 * far <= unit and size >= 10 * unit for unit in units):
-        return True
     if units and size < min(units, key=float) * LEAST_DIGITS:
         return False
-    cut = [
-        unit
-        for unit, value, other in zip(
-            map(_last_place, (relation.left, relation.right)), (a, b), (b, a), strict=True
-        )
-        if unit and abs(value) <= abs(other)
-    ]
-    if any(far <= unit for unit in cut) or (relation.near and not units):
+    if any(2 * far <= unit and size >= 10 * unit for unit in units):
+        return True
+    near = [unit for unit in units if 2 * far <= unit or _is_cut_off(relation, unit, a, b)]
+    if any(far <= unit for unit in near) or (relation.near and not units):
         return bool(far <= size * ROUNDED)
     return _has_rounded_number(relation) and bool(far <= size * RECKONED)
+
+
+def _is_cut_off(relation: Relation, unit: fmpq, a: Value, b: Value) -> bool:
+    """Return whether the side that is a decimal with this last place is the smaller one."""
+    left, right = (_last_place(side) == unit for side in (relation.left, relation.right))
+    return bool((left and abs(a) <= abs(b)) or (right and abs(b) <= abs(a)))
 
 
 def _last_place(side: Expr) -> fmpq | None:
