@@ -104,11 +104,7 @@ def _judge_as_written(spec: AnySpec, typed: str, options: GradingOptions) -> Ver
         return ambiguous("bullet-or-range", verdict.read_as)
     if verdict.verdict == WRONG and form in MEASURED:
         verdict = _ask_for_reading(spec, typed, options) or verdict
-    concluded = (
-        find_conclusion(typed) if verdict.note == "sides-differ" and form in MEASURED else ""
-    )
-    if concluded:
-        verdict = _judge_text(spec, concluded, options)
+    verdict = _judge_conclusion(spec, typed, verdict, options)
     decided = verdict.is_graded or verdict.note in DECIDED or not typed.strip()
     if decided and verdict.note != "unknown-term":
         return verdict
@@ -119,12 +115,21 @@ def _judge_as_written(spec: AnySpec, typed: str, options: GradingOptions) -> Ver
     return plainer or (verdict if verdict.is_graded else _ask_what_is_meant(form, typed, verdict))
 
 
+def _judge_conclusion(
+    spec: AnySpec, typed: str, verdict: Verdict, options: GradingOptions
+) -> Verdict:
+    """Return the verdict on what is concluded where the sides of an answer differ, if anything."""
+    differ = verdict.note == "sides-differ" and spec.written_as in MEASURED
+    concluded = find_conclusion(typed) if differ else ""
+    return _judge_text(spec, concluded, options) if concluded else verdict
+
+
 def _judge_plainer(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict | None:
     """Return the verdict on the answer without what stands around it; None if that is no help."""
     names, ranges = spec.value_names(), spec.may_be_range
     typed = prove_groups(typed) if spec.written_as in {"values", "number", "quantity"} else typed
     for text in list_plainer_texts(typed, spec.written_as, names, ranges=ranges):
-        plainer = _judge_text(spec, text, options)
+        plainer = _judge_conclusion(spec, text, _judge_text(spec, text, options), options)
         if plainer.verdict == WRONG and is_cut_short(typed):
             return None
         if plainer.note != "unknown-term" and (plainer.is_graded or plainer.note in DECIDED):

@@ -178,11 +178,12 @@ class VariantPart(PartContext):
         if words == "%" or words.casefold() in set_of_words("percent"):
             return ["%"]
         last = words.rpartition(" ")[2]
+        nouns = [one for one in (words, last) if len(one) >= SHORTEST_NOUN]
         with self.drawn.template.about.system.activate():
             for unit in (words, last):
                 with suppress(FormulaError):
-                    return [read_unit(unit).text]
-        return [one for one in (words, last) if len(one) >= SHORTEST_NOUN]
+                    return [read_unit(unit).text, *nouns]
+        return nouns
 
     def _nouns(self, things: str | list[str]) -> list[str]:
         """Return listed units as they are, and the bank's words for whatever else is counted.
