@@ -257,8 +257,9 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
         If there is none.
     """
     typed = _ARE_TRUE.sub("", typed.rstrip(" ;,✓✔.")).translate(BANGLA_DIGITS)
-    explained = _LETTER_BECAUSE.fullmatch(typed) if spec.kind == "choice" else None
-    if explained and explained["mark"] in _list_letters(spec):
+    explained = _LETTER_AND_BECAUSE.fullmatch(typed) if spec.kind == "choice" else None
+    named = {*_LONE_CAPITAL.findall(typed)} & {*_list_letters(spec)}
+    if explained and named == {explained["mark"]}:
         typed = explained["mark"]
     listed = _LETTERS_LAST.fullmatch(typed) if spec.kind == "multi" else None
     listed = listed or (_LETTERS_BECAUSE.fullmatch(typed) if spec.kind == "multi" else None)
@@ -326,6 +327,7 @@ _LONE_CAPITAL = re.compile(r"(?<![^\W_])[A-Z](?![^\W_])")
 _LETTER_AND_BECAUSE = WordPattern(
     r"(?P<mark>[A-Z])[,.:;)]? (?:«choices.because»)(?!\w)(?P<why>.*)", re.DOTALL
 )
+"""A letter with its reason."""
 
 
 def _read_clear_options(spec: ChoiceSpec, typed: str) -> list[int]:
@@ -376,11 +378,6 @@ _BESIDE_DENIED = WordPattern(
     rf"(?:,|;| «choices.but») (?P<out>{_LETTERS}) (?:«choices.are» )?«choices.no-option»",
     re.IGNORECASE,
 )
-_LETTER_BECAUSE = WordPattern(
-    r"(?P<mark>[A-Z])[,.:;)]? (?:«choices.because»)(?!\w)[^A-Z]*(?:[A-Z][^A-Z\s.,;:][^A-Z]*)*",
-    re.DOTALL,
-)
-"""A letter with its reason, in which no other letter stands alone."""
 _LETTERS_LAST = re.compile(
     r"(?P<words>[^:]*(?:[^\W\d_]|[\u0980-\u09ff]){3}[^:]*): ?(?P<letters>[A-Z](?:[ ,;]+[A-Z])*)"
 )

@@ -438,7 +438,7 @@ def _drop_reason(word: str, terms: list[str]) -> str:
 _CALLED = WordPattern(r"(?P<head>[^,;:=]+?)(?: «is»:? | ?[:=] ?)(?P<term>[^,;:=]+)", re.IGNORECASE)
 """A term behind what it is of, ``the code is SN``."""
 _TAKES_BACK = WordPattern(
-    r"(?:«choices.correcting»|«choices.false»|actually|alternatively)(?!\w)", re.IGNORECASE
+    r"(?:«choices.correcting»|«choices.false»|«choices.actually»)(?!\w)", re.IGNORECASE
 )
 """What begins words that put another term in place of one."""
 _CORRECTED = WordPattern(

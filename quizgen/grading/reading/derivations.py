@@ -70,7 +70,8 @@ _CORRECTED = WordPattern(
 _ALTERNATIVE = WordPattern(r"[\d)\w] (?:«choices.or»)(?![^\W\d_]) [\d(\w]", re.IGNORECASE)
 """Two values of which one is meant."""
 _TAKEN_BACK = WordPattern(
-    r"^(?:«choices.not»|never|nie) |\d\S* (?:(?:is|ist) )?(?:«choices.wrong»|«choices.isnt»)\W*$",
+    r"^(?:«choices.not»|«choices.never») |"
+    r"\d\S* (?:(?:«choices.is») )?(?:«choices.wrong»|«choices.isnt»)\W*$",
     re.IGNORECASE,
 )
 """An equation that is denied as a whole."""
