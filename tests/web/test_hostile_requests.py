@@ -147,7 +147,8 @@ def test_nothing_of_a_key_is_sent_before_it_is_handed_in(client, token, app):
                  client.post(f"{at}/read/{name}", data=body).text]  # fmt: skip
     shown = "\n".join(sent)
     told = {text for part in parts for text in _solution(part)}
-    public = "".join(item.stem + "".join(p.body for p in item.parts) for item in kept.items)
+    offered = [text for p in parts for _, text in p.field.options + p.field.targets]
+    public = "\n".join([*(item.stem for item in kept.items), *(p.body for p in parts), *offered])
     assert len(told) > 100
     assert [text for text in told if text in shown and text not in public] == []
     done = client.post(at, data={"token": token, "do": "hand-in"}).text
